@@ -1,0 +1,66 @@
+# RIGID: every command of a contributor. A bare machine needs python3 (3.11 or newer) and make.
+.DEFAULT_GOAL := help
+.PHONY: help demo test check lint format bundled bench clean
+.NOTPARALLEL:
+
+PYTHON ?= python3
+BIN := .venv/bin
+WEB := $(shell find web -name node_modules -prune -o -name build -prune -o -name tests -prune -o -type f -print 2>/dev/null)
+
+help: ## shows this list
+	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 10
+
+demo: .venv/.rigid ## measures the bundled robot in five minutes: runs/demo/report.html
+	$(BIN)/rigid demo
+
+test: .venv/.dev web/node_modules/.package-lock.json ## the fast suite, Python and web
+	@command -v chromium >/dev/null || { $(call apt,chromium); }
+	$(BIN)/pytest
+	$(npm) test
+
+check: lint test ## what continuous integration runs: lint, format, types, tests
+
+lint: .venv/.dev web/node_modules/.package-lock.json
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(npm) run types
+
+format: .venv/.dev ## formats, and mends what ruff can mend
+	$(BIN)/ruff format
+	$(BIN)/ruff check --fix
+
+bundled: .venv/.rigid ## retrains every bundled policy and data set from its seeds
+	$(BIN)/python -m rigid.robots.bundled
+
+bench: .venv/.rigid ## measures speed: benchmarks/latest.json
+	$(BIN)/rigid bench --json benchmarks/latest.json
+
+clean: ## removes all that was built or cached; keeps runs/
+	rm -rf .venv .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache dist
+	rm -rf src/rigid/report/static web/build web/node_modules
+	find src tests -name __pycache__ -prune -exec rm -rf {} +
+
+# The environment. Stamps in .venv/ say what was installed, so that the next call starts at once.
+.venv/.rigid .venv/.dev: pyproject.toml hatch_build.py $(WEB) | $(BIN)/python
+	@echo "installing into .venv: some minutes on the first run"
+	$(BIN)/pip install --quiet --editable '.$(extras_$(@F))'
+	@touch $@
+extras_.dev := [test,dev]
+
+$(BIN)/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "rigid needs Python 3.11 or newer: make PYTHON=python3.11 ..." >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || { $(call apt,python3-venv); }
+	$(PYTHON) -m venv .venv
+
+web/node_modules/.package-lock.json: web/package-lock.json | .venv/.dev
+	$(npm) ci --no-audit --no-fund --loglevel=error
+
+# npm, with the Node of the environment.
+npm = PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix web
+
+# Installs system packages when root on Debian; else says what is missing.
+apt = if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; \
+	then apt-get -qq update && DEBIAN_FRONTEND=noninteractive apt-get -qq install --no-install-recommends $(1) >/dev/null; \
+	else echo "missing on this machine: $(1). Run: sudo apt-get install $(1)" >&2; exit 1; fi

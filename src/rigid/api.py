@@ -1,0 +1,57 @@
+"""Measuring a robot from Python."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rigid.compute.measurement import Listener, measure_robot
+from rigid.compute.preparation import Subject
+from rigid.frontier.result import Frontier
+from rigid.presets import Preset, find_preset
+from rigid.tasks.protocol import Task
+from rigid.tasks.registry import make_task
+
+
+def measure(
+    task: str | Task,
+    robot: str,
+    *,
+    out: str | Path,
+    preset: str | Preset = "standard",
+    seeds: Sequence[int] | None = None,
+    lambdas: Sequence[float] | None = None,
+    human: str = "builtin:synthetic-human",
+    canonical: str | Path | None = None,
+    listener: Listener | None = None,
+) -> Frontier:
+    """Measures the natural-adversarial frontier of a robot.
+
+    Args:
+        task: A registered name, or a task.
+        robot: `builtin:NAME` or a native policy directory.
+        out: Run directory; an interrupted measurement in it is continued.
+        preset: `demo`, `standard`, `paper`, or a `Preset` of your own.
+        seeds: Search seeds instead of the preset's.
+        lambdas: Exactly these λ, without refinement; 0 and ∞ are allowed.
+        human: The synthetic human that the robot was trained for.
+        canonical: A file of canonical episodes; by default the robot's own.
+        listener: Told of progress.
+
+    Raises:
+        UserError: Bad input; the message names it and the cure, and nothing was overwritten.
+    """
+    subject = Subject(
+        make_task(task) if isinstance(task, str) else task,
+        robot,
+        human,
+        None if canonical is None else str(canonical),
+    )
+    return measure_robot(
+        subject,
+        find_preset(preset) if isinstance(preset, str) else preset,
+        out=Path(out),
+        seeds=seeds,
+        lambdas=lambdas,
+        listener=listener,
+    )

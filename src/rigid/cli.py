@@ -1,0 +1,77 @@
+"""RIGID measures how robust an assistive robot is to the way people really move.
+
+`rigid COMMAND --help` shows a command's options with their defaults and examples.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import operator
+import sys
+from collections.abc import Sequence
+from typing import Annotated, Any, Protocol
+
+import tyro
+
+from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
+from rigid.commands.playing import EvaluateCommand, RecordCommand
+from rigid.commands.training import TrainCommand
+from rigid.errors import UserError
+
+INTERRUPTED = 130
+
+
+
+class _Runs(Protocol):
+    def run(self) -> int: ...
+
+
+_COMMANDS: dict[str, type[_Runs]] = {
+    "demo": DemoCommand,
+    "frontier": FrontierCommand,
+    "report": ReportCommand,
+    "train": TrainCommand,
+    "record": RecordCommand,
+    "evaluate": EvaluateCommand,
+}
+
+
+def main() -> None:
+    """Runs one command and exits: 0 done, 1 a check failed, 2 bad input, 130 interrupted."""
+    sys.exit(run())
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Runs one command and returns its exit code."""
+    config = (
+        tyro.conf.OmitSubcommandPrefixes,
+        tyro.conf.OmitArgPrefixes,
+        tyro.conf.FlagCreatePairsOff,
+    )
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    kinds = _kinds(with_examples=given[:1] != ["--help"])
+    command: _Runs = tyro.cli(kinds, args=given, prog="rigid", description=__doc__, config=config)
+    try:
+        return command.run()
+    except UserError as error:
+        print(f"rigid: {error}", file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt as interrupt:
+        how = str(interrupt) or "the same command goes on"
+        print(f"\nrigid: interrupted; {how}", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _kinds(*, with_examples: bool) -> Any:
+    """The union of all commands. tyro drops examples from a docstring, and lists what it is told.
+
+    So a command's own help is told its whole docstring, and the list of commands is not.
+    """
+
+    def kind(name: str, command: type[_Runs]) -> Any:
+        text = inspect.getdoc(command) if with_examples else None
+        return Annotated[command, tyro.conf.subcommand(name, description=text)]
+
+    kinds = (kind(name, command) for name, command in _COMMANDS.items())
+    return functools.reduce(operator.or_, kinds)

@@ -1,0 +1,163 @@
+"""`rigid demo`, `rigid frontier`, `rigid report`: from a robot to its frontier."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
+
+from rigid.commands.parsing import parse_budget, parse_lambdas, parse_seeds
+
+if TYPE_CHECKING:
+    from rigid.frontier.result import Frontier
+    from rigid.presets import Preset
+
+_shown_as = tyro.conf.arg
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrontierCommand:
+    """Measure a robot: find the natural human motions that break it.
+
+    Examples:
+      rigid frontier --robot builtin:vanilla --out runs/vanilla
+      rigid frontier --robot my/robot --preset paper --seeds 0..2 --out runs/mine
+      rigid frontier --robot my/robot --lambdas 0,0.01,1,inf --seeds 0 --out runs/look
+    """
+
+    out: Path
+    """Run directory; an interrupted measurement in it goes on."""
+    task: str = "itch-scratching"
+    """Registered task."""
+    robot: str = "builtin:vanilla"
+    """builtin:NAME or a native policy directory."""
+    human: str = "builtin:synthetic-human"
+    """The synthetic human that the robot was trained for."""
+    canonical: Annotated[str | None, _shown_as(metavar="FILE")] = None
+    """File of canonical episodes; by default the robot's own, or a fresh recording."""
+    preset: str = "standard"
+    """demo, standard or paper."""
+    seeds: Annotated[str | None, _shown_as(metavar="SEEDS")] = None
+    """Search seeds, as 0,1,2 or 0..9; by default the preset's."""
+    lambdas: Annotated[str | None, _shown_as(metavar="LAMBDAS")] = None
+    """Exactly these weights, as 0,0.01,1,inf, without refinement."""
+    budget: Annotated[str | None, _shown_as(metavar="TIME")] = None
+    """Fit the preset to a time: 90s, 30m, 2h."""
+    json: bool = False
+    """Print frontier.json on standard output."""
+
+    def run(self) -> int:
+        """Measures, reports, and prints the headline."""
+        return _measure(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DemoCommand:
+    """Measure the bundled robot in about five minutes, as `make demo` does.
+
+    Example:
+      rigid demo --out runs/demo
+    """
+
+    out: Path = Path("runs/demo")
+    """Run directory."""
+
+    def run(self) -> int:
+        """Measures the bundled robot with the preset `demo`."""
+        return _measure(FrontierCommand(out=self.out, preset="demo"))
+
+
+@dataclass(frozen=True)
+class ReportCommand:
+    """Rebuild report.html from a finished run directory.
+
+    Example:
+      rigid report runs/demo
+    """
+
+    directory: Annotated[Path, tyro.conf.Positional]
+    """A finished run directory."""
+    out: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Where to write it; report.html in the directory by default."""
+
+    def run(self) -> int:
+        """Writes the report and prints its path."""
+        from rigid.report.gather import write_report
+
+        print(write_report(self.directory, self.out))
+        return 0
+
+
+def _measure(options: FrontierCommand) -> int:
+    seeds, lambdas = parse_seeds(options.seeds), parse_lambdas(options.lambdas)
+    budget = parse_budget(options.budget)
+    from rigid.api import measure
+    from rigid.commands.progress import TerminalListener
+    from rigid.presets import find_preset
+
+    preset = find_preset(options.preset)
+    if seeds is not None:
+        preset = replace(preset, seeds=seeds)
+    if budget is not None:
+        preset = _fitted(preset, options, budget, lambdas)
+    try:
+        with TerminalListener(f"{options.robot} · {preset.name}") as listener:
+            listener.say(f"preparing {options.robot} on {options.task} (preset {preset.name})")
+            frontier = measure(
+                options.task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
+                lambdas=lambdas, human=options.human, canonical=options.canonical,
+                listener=listener,
+            )  # fmt: skip
+            report = options.out / "report.html"
+            if not report.exists():
+                listener.say("drawing the report")
+                frontier.report()
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"the same command goes on in {options.out}") from None
+    print(json.dumps(dict(frontier.data)) if options.json else headline(frontier, report))
+    return 0
+
+
+def _fitted(
+    preset: Preset, options: FrontierCommand, seconds: float, lambdas: tuple[float, ...] | None
+) -> Preset:
+    """The preset that `--budget` stands for; what was begun keeps its own."""
+    from rigid.compute.budget import fit_to, stored_preset, training_speed
+    from rigid.compute.run_directory import check_place
+    from rigid.tasks.registry import make_task
+
+    stored = stored_preset(options.out, preset)
+    if stored is not None:  # Its seeds stay, and those that the user names join them.
+        return stored if options.seeds is None else replace(stored, seeds=preset.seeds)
+    check_place(options.out)
+    task = make_task(options.task)
+    rounds = preset.per_round if lambdas is None else (len(lambdas),)
+    fitted = fit_to(
+        replace(preset, per_round=rounds), seconds,
+        horizon=task.horizon, steps_per_second=training_speed(task),
+    )  # fmt: skip
+    return replace(fitted, per_round=preset.per_round)
+
+
+def headline(frontier: Frontier, report: Path) -> str:
+    """What the terminal shows at the end."""
+    data = frontier.data
+    worst, natural = data["worst_at_interval"]["0.9"], data["auc_natural_interval"]
+    lines = [
+        "",
+        f"  worst at naturalness ≥ 0.9   {data['worst_at']['0.9']:.2f}  {_interval(worst)}",
+        f"  area over [0.8, 1]           {data['auc_natural']:.2f}  {_interval(natural)}",
+        f"  AUC                          {data['auc']:.2f}  {_interval(data['auc_interval'])}",
+        f"  {len(frontier.points)} adversaries, {len(data['auc_by_seed'])} seeds; lower is better",
+        "  an estimate at this search power, not a bound",
+    ]
+    if data.get("stamp"):
+        lines.append(f"  {data['stamp']}")
+    return "\n".join([*lines, "", f"report: {report}"])
+
+
+def _interval(ends: list[float] | None) -> str:
+    return "[one seed: no interval]" if ends is None else f"[{ends[0]:.2f}, {ends[1]:.2f}]"

@@ -1,0 +1,70 @@
+"""How long a measurement takes here, and a preset that fits a given time."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import fields, replace
+from pathlib import Path
+
+import numpy as np
+
+from rigid.errors import UserError
+from rigid.presets import Preset
+from rigid.tasks.protocol import Task
+
+TRAINING_SHARE = 0.5
+"""Training steps per second over plain stepping; for estimates of time only (measured .45-.6)."""
+FIXED_SECONDS = 40.0
+"""Compilation, canonical episodes, the report (measured 30-50 s on two cores)."""
+_LEAST_ITERATIONS = 20
+_PROBE_WORLDS, _PROBE_STEPS = 192, 20
+
+
+def training_speed(task: Task) -> float:
+    """Expected training steps per second on this machine, from half a second of stepping."""
+    world = task.make_world(_PROBE_WORLDS)
+    world.reset(np.arange(_PROBE_WORLDS))
+    robot = np.zeros((_PROBE_WORLDS, task.robot.action_size))
+    human = np.zeros((_PROBE_WORLDS, task.human.action_size))
+    begun = time.perf_counter()
+    for _ in range(_PROBE_STEPS):
+        world.step(robot, human)
+    return TRAINING_SHARE * _PROBE_WORLDS * _PROBE_STEPS / (time.perf_counter() - begun)
+
+
+def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: float) -> Preset:
+    """The preset with fewer iterations, then fewer seeds, so that it takes about `seconds`.
+
+    Raises:
+        UserError: Not even one seed with 20 iterations fits.
+    """
+    affordable = max(seconds - FIXED_SECONDS, 0.0) * steps_per_second
+    share = affordable / preset.env_steps(horizon)
+    if share >= 1:
+        return preset
+    iterations = max(int(share * preset.iterations), _LEAST_ITERATIONS)
+    per_seed = replace(preset, seeds=preset.seeds[:1], iterations=iterations).env_steps(horizon)
+    seeds = int(affordable // per_seed)
+    if seeds < 1:
+        least = FIXED_SECONDS + per_seed / steps_per_second
+        raise UserError(
+            f"--budget is too short for preset {preset.name!r}: one seed of {_LEAST_ITERATIONS} "
+            f"iterations takes about {least:.0f} s here"
+        )
+    return replace(preset, iterations=iterations, seeds=preset.seeds[:seeds])
+
+
+def stored_preset(directory: Path, preset: Preset) -> Preset | None:
+    """The budget of a measurement that was begun in `directory`, None where there is none.
+
+    A budget in minutes resolves to other numbers at another moment, so a resumed run keeps its own.
+    """
+    try:
+        settings = json.loads((directory / "settings.json").read_bytes())
+        stored = settings["identity"]["preset"]
+        known = {field.name: stored[field.name] for field in fields(Preset) if field.name in stored}
+        known |= {"per_round": tuple(stored["per_round"]), "seeds": tuple(settings["seeds"])}
+    except (OSError, ValueError, KeyError, TypeError):
+        return None  # No measurement, or one that will be refused with its reason.
+    return replace(preset, **known)

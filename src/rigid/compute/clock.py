@@ -1,0 +1,65 @@
+"""How much time a measurement has taken, earlier sessions of an interrupted one included."""
+
+from __future__ import annotations
+
+import json
+import resource
+import time
+from pathlib import Path
+
+from rigid.errors import UserError
+from rigid.files import json_text, read_bytes, write_atomically
+
+_EVERY = 5.0
+"""Seconds between two notes: at most this much of a killed session goes uncounted."""
+
+
+class Clock:
+    """Wall and processor time of this process and its children since the clock was made."""
+
+    def __init__(self) -> None:
+        self._wall, self._core = time.perf_counter(), _core_seconds()
+        self._earlier = {"core_seconds": 0.0, "wall_seconds": 0.0}
+        self._note: Path | None = None
+        self._noted = self._wall
+
+    def go_on(self, note: Path) -> None:
+        """Adds what earlier sessions left in `note`, and leaves its own there from now on.
+
+        Raises:
+            UserError: The note is damaged.
+        """
+        self._note = note
+        if not note.exists():
+            return
+        cure = "delete it; only the times before are lost"
+        try:
+            stored = json.loads(read_bytes(note, cure=cure))
+            self._earlier = {name: float(stored[name]) for name in self._earlier}
+        except (ValueError, KeyError, TypeError):
+            raise UserError(f"{note} is damaged: {cure}") from None
+
+    def tick(self) -> None:
+        """Notes the time now and then."""
+        if time.perf_counter() - self._noted >= _EVERY:
+            self.keep()
+
+    def keep(self) -> None:
+        """Notes the time for later sessions."""
+        if self._note is not None:
+            self._note.parent.mkdir(exist_ok=True)
+            write_atomically(self._note, json_text(self.read()).encode())
+            self._noted = time.perf_counter()
+
+    def read(self) -> dict[str, float]:
+        """Time spent in all sessions so far [s]."""
+        now = {
+            "core_seconds": _core_seconds() - self._core,
+            "wall_seconds": time.perf_counter() - self._wall,
+        }
+        return {name: round(self._earlier[name] + spent, 1) for name, spent in now.items()}
+
+
+def _core_seconds() -> float:
+    usages = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(usage.ru_utime + usage.ru_stime for usage in usages)

@@ -1,0 +1,242 @@
+"""The unit of work: the adversaries of one seed and one round, from training to scored points.
+
+A group's numbers depend on its inputs alone, never on where or when it runs or how often it was
+interrupted: randomness comes from (seed, round, iteration), and the width of every batch is fixed.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+
+from rigid.compute.checkpoint import load_tree, save_arrays, save_tree
+from rigid.compute.scoring import Court, Ruler, judge, score
+from rigid.errors import UserError
+from rigid.files import json_text, read_bytes, write_atomically
+from rigid.learning.adversary import (
+    Adversary,
+    AdversarySettings,
+    Metrics,
+    Opponent,
+    start_adversary,
+    train_iteration,
+)
+from rigid.naturalness.referee import Referee
+from rigid.policies.gaussian import GaussianPolicy
+from rigid.policies.native import save_policy
+from rigid.presets import Preset
+from rigid.tasks.protocol import Task
+
+Row = dict[str, Any]
+"""A line of `metrics.jsonl`: iteration, and numbers or None."""
+
+CHECKPOINT_EVERY = 10
+"""Iterations between checkpoints: at most about 10 s of work is lost on two cores."""
+
+
+@dataclass(frozen=True)
+class GroupPlan:
+    """Which adversaries make up the group."""
+
+    seed: int
+    round: int
+    lambdas: tuple[float, ...]
+
+    @property
+    def name(self) -> str:
+        """`s0-r1`: seed 0, round 1."""
+        return f"s{self.seed}-r{self.round}"
+
+    def member(self, index: int) -> str:
+        """Id of one adversary, `s0-r1-l1` for the first λ."""
+        return f"{self.name}-l{index + 1}"
+
+    @property
+    def entropy(self) -> int:
+        """One integer from which all of the group's randomness derives."""
+        return int(np.random.SeedSequence([self.seed, self.round]).generate_state(1)[0])
+
+
+@dataclass(frozen=True)
+class GroupInputs:
+    """Everything that every group of a measurement shares."""
+
+    task: Task
+    opponent: Opponent
+    ruler: Ruler
+    preset: Preset
+    settings: AdversarySettings
+    directory: Path
+
+
+def run_group(
+    inputs: GroupInputs, plan: GroupPlan, *, advance: Callable[[int], None] = lambda _: None
+) -> list[dict[str, Any]]:
+    """Trains and scores a group, or reads it when it is already done.
+
+    Args:
+        inputs: What all groups share.
+        plan: Which adversaries these are.
+        advance: Called with environment steps as they are done, resumed ones included.
+
+    Returns:
+        One entry of `frontier.json`'s points for each λ, in the order of the plan.
+    """
+    done = inputs.directory / "groups" / f"{plan.name}.json"
+    steps = inputs.preset.iterations * inputs.preset.episodes * inputs.task.horizon
+    if done.exists():
+        advance(steps * len(plan.lambdas))
+        return _read_done(done, plan)
+    group, history = _train(inputs, plan, advance)
+    policies = [adversary.learner.policy for adversary in group]
+    court = Court(inputs.task, inputs.opponent, inputs.ruler, inputs.preset)
+    judged = judge(court, policies, plan.entropy)
+    scored = score(court, group, judged, plan.entropy)
+    points = []
+    for index, (point, episodes) in enumerate(scored):
+        name = plan.member(index)
+        points.append({
+            "id": name,
+            "seed": plan.seed,
+            "round": plan.round,
+            "lambda": json_lambda(plan.lambdas[index]),
+            "env_steps": steps,
+            **convergence(history[index]),
+            **point,
+        })  # fmt: skip
+        referee = Referee(judged[index].network, inputs.ruler.scale)
+        save_tree(inputs.directory / "referee" / f"{name}.safetensors", referee)
+        save_arrays(inputs.directory / "adversaries" / name / "episodes.npz", episodes)
+    done.parent.mkdir(exist_ok=True)
+    write_atomically(done, json_text({"points": points}, indent=1).encode())
+    (inputs.directory / "groups" / f"{plan.name}.safetensors").unlink(missing_ok=True)
+    return points
+
+
+def json_lambda(lambda_: float) -> float | str:
+    """λ for JSON, which knows no infinity."""
+    return "inf" if np.isinf(lambda_) else lambda_
+
+
+def _read_done(path: Path, plan: GroupPlan) -> list[dict[str, Any]]:
+    cure = "delete it to train its group again"
+    try:
+        points: list[dict[str, Any]] = json.loads(read_bytes(path, cure=cure))["points"]
+        found = [point["id"] for point in points]
+    except (ValueError, KeyError, TypeError) as error:
+        raise UserError(f"{path} is damaged ({error}): {cure}") from None
+    wanted = [plan.member(index) for index in range(len(plan.lambdas))]
+    if found != wanted:
+        raise UserError(f"{path} holds the points {found}, not {wanted}: {cure}")
+    return points
+
+
+def _train(
+    inputs: GroupInputs, plan: GroupPlan, advance: Callable[[int], None]
+) -> tuple[list[Adversary], list[list[Row]]]:
+    keys = jax.random.split(jax.random.key(plan.entropy), len(plan.lambdas))
+    group = [
+        start_adversary(inputs.opponent, inputs.settings, lambda_, key)
+        for lambda_, key in zip(plan.lambdas, keys, strict=True)
+    ]
+    history: list[list[Row]] = [[] for _ in group]
+    checkpoint = inputs.directory / "groups" / f"{plan.name}.safetensors"
+    per_iteration = len(group) * inputs.preset.episodes * inputs.task.horizon
+    if checkpoint.exists():
+        group = load_tree(checkpoint, group)
+        count = int(group[0].iteration)
+        history = [
+            _read_metrics(inputs, plan.member(i), count, checkpoint) for i in range(len(group))
+        ]
+        advance(per_iteration * count)
+    world = inputs.task.make_world(len(group) * inputs.preset.episodes)
+    for iteration in range(int(group[0].iteration), inputs.preset.iterations):
+        results = train_iteration(
+            inputs.task, world, group, inputs.opponent, inputs.settings, plan.entropy
+        )
+        group = [adversary for adversary, _ in results]
+        for rows, (_, metrics) in zip(history, results, strict=True):
+            rows.append(_metrics_row(iteration, metrics))
+        advance(per_iteration)
+        last = iteration + 1 == inputs.preset.iterations
+        if last or (iteration + 1) % CHECKPOINT_EVERY == 0:
+            _save(inputs, plan, group, history)
+            save_tree(checkpoint, group)
+    return group, history
+
+
+def _save(
+    inputs: GroupInputs,
+    plan: GroupPlan,
+    group: Sequence[Adversary],
+    history: Sequence[list[Row]],
+) -> None:
+    for index, (adversary, rows) in enumerate(zip(group, history, strict=True)):
+        directory = inputs.directory / "adversaries" / plan.member(index)
+        directory.mkdir(parents=True, exist_ok=True)
+        save_policy(
+            GaussianPolicy(adversary.learner.policy),
+            directory,
+            agent="human",
+            task=inputs.task.describe(),
+            provenance={"lambda": json_lambda(plan.lambdas[index]), "seed": plan.seed,
+                        "round": plan.round, "iterations": int(adversary.iteration)},
+        )  # fmt: skip
+        save_tree(directory / "discriminator.safetensors", adversary.discriminator.network)
+        text = "".join(json.dumps(row) + "\n" for row in rows)
+        write_atomically(directory / "metrics.jsonl", text.encode())
+    (inputs.directory / "groups").mkdir(exist_ok=True)
+
+
+def _metrics_row(iteration: int, metrics: Metrics) -> Row:
+    """One line of `metrics.jsonl`; unknown values, such as a success nobody defines, are null."""
+    health = metrics.health._asdict()
+    flat = {**metrics._asdict(), **health}
+    del flat["health"]
+    numbers = {name: float(value) for name, value in flat.items()}
+    known = {name: None if math.isnan(value) else value for name, value in numbers.items()}
+    return {"iteration": iteration, **known}
+
+
+def _read_metrics(inputs: GroupInputs, name: str, count: int, checkpoint: Path) -> list[Row]:
+    """The first `count` rows; a run that was killed may have written more than its checkpoint."""
+    path = inputs.directory / "adversaries" / name / "metrics.jsonl"
+    cure = f"delete {checkpoint} to train from the start of its group"
+    try:
+        rows = [json.loads(line) for line in read_bytes(path, cure=cure).splitlines()]
+    except ValueError as error:
+        raise UserError(f"{path} is damaged ({error}): {cure}") from None
+    if len(rows) < count:
+        raise UserError(f"{path} is damaged ({len(rows)} of {count} iterations): {cure}")
+    return rows[:count]
+
+
+def convergence(history: Sequence[Row]) -> dict[str, Any]:
+    """Whether training had come to rest, from the last fifth of the iterations (ours).
+
+    `converged`: the return moved by less than one standard deviation of its iteration-to-iteration
+    noise between the two halves of that fifth, and the discriminator still errs on some adversary
+    rows or none of them look canonical (it neither collapsed nor froze).
+    """
+    window = max(len(history) // 5, 2)
+    tail = history[-window:]
+    returns = np.array([row["mean_return"] for row in tail])
+    half = len(returns) // 2
+    drift = float(returns[half:].mean() - returns[:half].mean())
+    noise = float(np.abs(np.diff(returns)).mean())
+    rested = abs(drift) <= max(noise, 1e-9)
+    alert = float(np.mean([row["accuracy_canonical"] for row in tail])) > 0.5
+    return {
+        "converged": bool(rested and alert),
+        "return_drift": drift,
+        "accuracy_canonical": float(np.mean([row["accuracy_canonical"] for row in tail])),
+        "accuracy_adversary": float(np.mean([row["accuracy_adversary"] for row in tail])),
+        "entropy": float(tail[-1]["entropy"]),
+    }

@@ -1,0 +1,212 @@
+"""The run directory: what belongs to one measurement, and whether a new one may go on in it."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from rigid._version import __version__
+from rigid.errors import UserError
+from rigid.files import first_difference, json_text, read_bytes, write_atomically
+
+SCHEMA = 1
+_LIBRARIES = ("mujoco", "jax", "jaxlib", "numpy", "optax", "scipy")
+_LEFTOVER = re.compile(r"\.settings\.json\.\d+\.tmp")
+"""What a run that was killed at its very first write leaves behind."""
+
+
+@dataclass(frozen=True)
+class RunDirectory:
+    """Paths of one measurement on disk."""
+
+    path: Path
+
+    @property
+    def settings(self) -> Path:
+        """Everything resolved: what is measured, and with what."""
+        return self.path / "settings.json"
+
+    @property
+    def frontier(self) -> Path:
+        """The result; present only when the measurement is complete."""
+        return self.path / "frontier.json"
+
+    @property
+    def report(self) -> Path:
+        """The self-contained page."""
+        return self.path / "report.html"
+
+
+class OpenRun(NamedTuple):
+    """A run directory that is ready for a measurement."""
+
+    directory: RunDirectory
+    seeds: tuple[int, ...]
+    """Every seed that belongs to the measurement, ascending: also those of earlier commands."""
+    warnings: list[str]
+    """Library versions that changed since the measurement was begun."""
+
+
+def check_place(path: Path) -> None:
+    """Refuses what can never become this measurement's directory, before any work; makes nothing.
+
+    Raises:
+        UserError: `path` cannot be written, holds something else, or damaged settings.
+    """
+    run = RunDirectory(path)
+    with writing_to(path):
+        names = [entry.name for entry in path.iterdir()] if path.exists() else []
+        held = next(place for place in (path, *path.absolute().parents) if place.exists())
+        if not held.is_dir():
+            raise NotADirectoryError(0, f"{held} is a file")
+        if not run.frontier.exists() and not os.access(held, os.W_OK | os.X_OK):
+            raise PermissionError(0, "no permission")
+    if run.settings.exists():
+        read_settings(run)
+    elif not all(_LEFTOVER.fullmatch(name) for name in names):
+        raise UserError(
+            f"{path} is not empty and holds no measurement (no settings.json): choose a new "
+            "directory with --out"
+        )
+
+
+@contextmanager
+def writing_to(path: Path) -> Iterator[None]:
+    """Turns a failure to write into a message; for the places that users name with --out."""
+    try:
+        yield
+    except OSError as error:
+        raise UserError(
+            f"cannot write to {path} ({error.strerror}): choose another place with --out"
+        ) from None
+
+
+def open_run(
+    path: Path, identity: Mapping[str, Any], seeds: Sequence[int], command: Sequence[str]
+) -> OpenRun:
+    """Opens `path` for a measurement: new, to be resumed, or finished.
+
+    Args:
+        path: A new or empty directory, or one that holds the same measurement.
+        identity: Task, hashes, preset, measure: equal identities give equal numbers.
+        seeds: Search seeds; those of an earlier run in `path` are kept.
+        command: What the user typed, for the record.
+
+    Raises:
+        UserError: `path` cannot be written, holds something else, or another measurement.
+    """
+    check_place(path)
+    run = RunDirectory(path)
+    if not run.settings.exists():
+        with writing_to(path):
+            path.mkdir(parents=True, exist_ok=True)
+            _write(run, identity, sorted(seeds), provenance(command))
+        return OpenRun(run, tuple(sorted(seeds)), [])
+    stored = read_settings(run)
+    different = first_difference(dict(stored["identity"]), dict(identity))
+    if different is not None:
+        name, there, here = different
+        raise UserError(
+            f"{path} holds a measurement with other settings: {name} is {_short(there)} there and "
+            f"{_short(here)} here; choose another directory with --out, or the same settings"
+        )
+    everyone = sorted({*stored["seeds"], *seeds})
+    if everyone != stored["seeds"]:
+        with writing_to(path):
+            for outdated in (run.frontier, run.report):  # They do not cover every seed.
+                outdated.unlink(missing_ok=True)
+            _write(run, stored["identity"], everyone, stored["provenance"])
+    return OpenRun(run, tuple(everyone), _version_warnings(stored["provenance"]["versions"]))
+
+
+def read_settings(run: RunDirectory) -> dict[str, Any]:
+    """The settings of a measurement; raises `UserError` when they are missing or damaged."""
+    cure = "choose another directory, or delete this one"
+    try:
+        stored: dict[str, Any] = json.loads(read_bytes(run.settings, cure=cure))
+        schema = stored["schema"]
+        if schema == SCHEMA:
+            _check_complete(stored)
+    except (ValueError, KeyError, TypeError):
+        raise UserError(f"{run.settings} is damaged: {cure}") from None
+    if schema != SCHEMA:
+        raise UserError(f"{run.settings} has schema {schema}, this RIGID reads {SCHEMA}: {cure}")
+    return stored
+
+
+def _check_complete(stored: Mapping[str, Any]) -> None:
+    """Raises `KeyError` or `TypeError` for settings that nothing could be done with."""
+    seeds = stored["seeds"]
+    whole = isinstance(seeds, list) and all(isinstance(seed, int) for seed in seeds)
+    named = isinstance(stored["identity"], dict)
+    if not (whole and named and isinstance(stored["provenance"]["versions"], dict)):
+        raise TypeError
+
+
+def provenance(command: Sequence[str]) -> dict[str, Any]:
+    """Who made this with what: never part of a measurement's identity."""
+    return {
+        "rigid": __version__,
+        "command": " ".join(command),
+        "versions": {name: metadata.version(name) for name in _LIBRARIES},
+        "python": platform.python_version(),
+        "machine": f"{platform.system()} {platform.machine()}",
+        "git_commit": _git_commit(),
+    }
+
+
+def _git_commit() -> str | None:
+    """The commit of the source tree, None for an installed package."""
+    here = Path(__file__).resolve()
+
+    def git(*command: str) -> str:
+        found = subprocess.run(
+            ["git", "-C", str(here.parent), *command],  # noqa: S607 (git from the PATH)
+            capture_output=True, text=True, check=True, timeout=5,
+        )  # fmt: skip
+        return found.stdout.strip()
+
+    try:
+        # An environment may lie inside a repository of somebody else.
+        git("ls-files", "--error-unmatch", here.name)
+        return git("rev-parse", "HEAD")
+    except (OSError, subprocess.SubprocessError):
+        return None
+
+
+def _write(
+    run: RunDirectory, identity: Mapping[str, Any], seeds: Sequence[int], made_by: Mapping[str, Any]
+) -> None:
+    settings = {
+        "schema": SCHEMA, "identity": identity, "seeds": list(seeds), "provenance": made_by,
+    }  # fmt: skip
+    write_atomically(run.settings, json_text(settings, indent=1).encode())
+
+
+def _version_warnings(begun_with: Mapping[str, str]) -> list[str]:
+    return [
+        f"this run was begun with {name} {begun_with[name]}, now it is {metadata.version(name)}: "
+        "its numbers may differ in the last digits"
+        for name in _LIBRARIES
+        if begun_with.get(name, metadata.version(name)) != metadata.version(name)
+    ]
+
+
+def _short(value: object) -> str:
+    text = str(value)
+    return text if len(text) <= 40 else f"{text[:37]}…"
+
+
+def command_line() -> list[str]:
+    """What the user typed."""
+    return ["rigid", *sys.argv[1:]] if Path(sys.argv[0]).stem == "rigid" else list(sys.argv)

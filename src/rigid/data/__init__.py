@@ -1,0 +1,1 @@
+"""Canonical episodes: natural human behaviour on disk, and how it is recorded."""

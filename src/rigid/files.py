@@ -1,0 +1,111 @@
+"""Files at the edge: written whole or not at all, and JSON headers that say what is wrong."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from rigid.errors import UserError
+
+_Header = TypeVar("_Header", bound=BaseModel)
+
+
+class _Version(BaseModel):
+    """The only part of a header that every format version shares."""
+
+    format: int
+
+
+def write_atomically(path: Path, data: bytes) -> None:
+    """Writes `data` to `path`: whoever reads it finds the old file or all of the new one."""
+    # Beside the target, since a file cannot be renamed across file systems.
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        with temporary.open("wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def read_bytes(path: Path, *, cure: str) -> bytes:
+    """The bytes of a file that a user named.
+
+    Raises:
+        UserError: It is missing or cannot be read; the message ends with the `cure`.
+    """
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise UserError(f"{path} does not exist: {cure}") from None
+    except OSError as error:
+        raise UserError(f"{path} cannot be read ({error.strerror}): {cure}") from None
+
+
+def json_text(value: Mapping[str, Any], *, indent: int | None = None) -> str:
+    """JSON with sorted keys: equal values give equal text, whether tuples or lists.
+
+    Raises:
+        ValueError: A number is NaN or infinite, which JSON does not know.
+    """
+    return json.dumps(value, sort_keys=True, indent=indent, ensure_ascii=False, allow_nan=False)
+
+
+def parse_header(
+    model: type[_Header], text: str | bytes, *, version: int, where: object, cure: str
+) -> _Header:
+    """A JSON header, checked against `model`.
+
+    Args:
+        model: What format `version` looks like.
+        text: JSON.
+        version: The newest format version that this RIGID reads.
+        where: Whose header it is; begins every message.
+        cure: What to do about a bad header; ends every message but the one on newer versions.
+
+    Raises:
+        UserError: The header is no JSON, of another version, or does not fit `model`.
+    """
+    try:
+        found = _Version.model_validate_json(text).format
+        if found > version:
+            raise UserError(
+                f"{where} has format version {found}, but this RIGID reads up to {version}: "
+                "install a newer rigid-frontier"
+            )
+        if found < 1:
+            raise UserError(f"{where} has unknown format version {found}: {cure}")
+        return model.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(str(part) for part in first["loc"]) or "the header"
+        raise UserError(f"{where}: {place}: {first['msg']}: {cure}") from None
+
+
+def first_difference(
+    mine: Mapping[str, Any], theirs: Mapping[str, Any]
+) -> tuple[str, Any, Any] | None:
+    """The first entry (dotted name, mine, theirs) in which two JSON mappings differ.
+
+    Only entries that both have count: a newer RIGID may describe more.
+
+    Example:
+        >>> first_difference({"a": {"b": (1, 2)}, "c": 1}, {"a": {"b": [1, 3]}})
+        ('a.b', (1, 2), [1, 3])
+    """
+    for name in sorted(mine.keys() & theirs.keys()):
+        left, right = mine[name], theirs[name]
+        if isinstance(left, Mapping) and isinstance(right, Mapping):
+            inner = first_difference(left, right)
+            if inner is not None:
+                return f"{name}.{inner[0]}", inner[1], inner[2]
+        elif json.dumps(left, sort_keys=True) != json.dumps(right, sort_keys=True):
+            return name, left, right
+    return None

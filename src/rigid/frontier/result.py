@@ -1,0 +1,97 @@
+"""The result of a measurement: `frontier.json` as an object."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rigid.errors import UserError
+from rigid.files import read_bytes
+from rigid.frontier.statistics import MeasuredPoint
+
+FILE = "frontier.json"
+
+
+@dataclass(frozen=True)
+class Frontier:
+    """The natural-adversarial frontier of one robot.
+
+    Every number is an estimate at the stated search power: a weak referee errs upwards, a weak
+    search downwards; it bounds nothing.
+    """
+
+    directory: Path
+    data: Mapping[str, Any]
+    """`frontier.json`, schema 1."""
+
+    @property
+    def points(self) -> list[dict[str, Any]]:
+        """The adversaries found, each a dict as in `frontier.json`."""
+        return list(self.data["points"])
+
+    @property
+    def worst_at(self) -> dict[str, float]:
+        """Worst adversarialness found at naturalness of at least "0.8", "0.9", "0.95"."""
+        return dict(self.data["worst_at"])
+
+    @property
+    def auc_natural(self) -> float:
+        """Mean height of the hull over naturalness in [0.8, 1]."""
+        return float(self.data["auc_natural"])
+
+    @property
+    def auc(self) -> float:
+        """Area under the hull, mean over seeds; lower is more robust."""
+        return float(self.data["auc"])
+
+    @property
+    def auc_interval(self) -> tuple[float, float] | None:
+        """95 % t interval of `auc` over search seeds; None for one seed."""
+        interval = self.data["auc_interval"]
+        return None if interval is None else (float(interval[0]), float(interval[1]))
+
+    def report(self, path: Path | str | None = None) -> Path:
+        """Writes the self-contained HTML report and returns its path."""
+        from rigid.report.gather import write_report
+
+        return write_report(self.directory, None if path is None else Path(path))
+
+
+def load_frontier(directory: Path | str) -> Frontier:
+    """Reads a finished run directory.
+
+    Raises:
+        UserError: There is no finished measurement, or its file is damaged.
+    """
+    folder = Path(directory)
+    path = folder / FILE
+    cure = "run `rigid frontier` with this --out to finish it"
+    # The file that is there would make that command call the measurement complete.
+    again = f"delete it and {cure}; what is trained is kept"
+    try:
+        data = json.loads(read_bytes(path, cure=cure))
+        known = data["schema"] == 1 and {"points", "worst_at", "auc"} <= data.keys()
+    except (ValueError, KeyError, TypeError):
+        raise UserError(f"{path} is damaged: {again}") from None
+    if not known:
+        raise UserError(f"{path} is not a frontier of schema 1: {again}")
+    return Frontier(folder, data)
+
+
+def measured_points(points: Sequence[Mapping[str, Any]]) -> list[MeasuredPoint]:
+    """Entries of `frontier.json`'s points as the statistics take them; null becomes NaN."""
+    return [
+        MeasuredPoint(
+            id=point["id"],
+            seed=point["seed"],
+            naturalness=point["naturalness"],
+            naturalness_own=point["naturalness_own"],
+            adversarialness=math.nan if (y := point["adversarialness"]) is None else y,
+            faulted_share=point["faults"] / point["episodes"],
+        )
+        for point in points
+    ]

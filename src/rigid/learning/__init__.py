@@ -1,0 +1,1 @@
+"""How policies learn: rollouts, PPO, cloning, co-optimisation, personalisation, adversaries."""

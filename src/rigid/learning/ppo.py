@@ -1,0 +1,309 @@
+"""Proximal policy optimisation for fixed-horizon episodes (Schulman et al., 2017).
+
+One learner is a policy, a critic and their optimiser; every function takes one learner and is
+`vmap`-ped by callers that train several side by side. T denotes steps, N episodes.
+
+The critic sees the time left, the policy does not: episodes end after exactly T steps, so the value
+of a state depends on time, and a baseline may look at anything without biasing the gradient.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, TypedDict
+
+import jax
+import jax.numpy as jnp
+import optax
+from jaxtyping import Array, Float, PRNGKeyArray
+
+from rigid.policies.gaussian import GaussianParameters, init_gaussian, log_density, mean_action
+from rigid.policies.networks import (
+    MLP,
+    Normaliser,
+    apply_mlp,
+    init_mlp,
+    init_normaliser,
+    normalise,
+    update_normaliser,
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PPOSettings:
+    """Hyper-parameters of PPO; defaults are the common ones, marked where the paper departs."""
+
+    learning_rate: float = 3e-4
+    gamma: float = 0.99
+    """Discount. The paper's appendix prints 0.09 for robots, which cannot see past three steps of
+    100 and is read as a slip for 0.99."""
+    gae_lambda: float = 0.95
+    clip: float = 0.2
+    epochs: int = 8
+    minibatch: int = 2400
+    """Samples of a gradient step."""
+    value_coefficient: float = 0.5
+    learn_std: bool = False
+    """Whether the action noise is learned. Ours: no, it is scheduled by the caller, since an
+    entropy bonus stalls co-optimisation and adversaries keep the synthetic human's noise."""
+    max_gradient_norm: float = 0.5
+    cloning_coefficient: float = 0.0
+    """Weight of the squared distance to an expert's mean action; 0: no expert."""
+    policy_coefficient: float = 1.0
+    update_normaliser: bool = True
+    signal_floor: float = 0.0
+    """Advantages with a smaller standard deviation than this shorten the step in proportion. PPO
+    standardises advantages and Adam the gradient, so that even a policy with nothing left to gain
+    walks at full pace, led by noise; with a floor it comes to rest. 0: plain PPO. Ours."""
+
+
+class Learner(NamedTuple):
+    """A policy and a critic in training."""
+
+    policy: GaussianParameters
+    critic: MLP
+    critic_normaliser: Normaliser
+    optimiser: optax.OptState
+
+
+class Rollout(NamedTuple):
+    """N episodes of T steps as one learner saw them."""
+
+    observation: Float[Array, "T N o"]
+    critic_observation: Float[Array, "T N c"]
+    action: Float[Array, "T N a"]
+    """Actions as sampled, before clipping."""
+    reward: Float[Array, "T N"]
+    weight: Float[Array, "T N"]
+    """1, or 0 from the step on at which physics ran away."""
+    expert_action: Float[Array, "T N a"]
+    """What the expert would do; ignored without cloning."""
+
+
+class Losses(NamedTuple):
+    """Means over the last epoch."""
+
+    policy: Float[Array, ""]
+    value: Float[Array, ""]
+    cloning: Float[Array, ""]
+    entropy: Float[Array, ""]
+    clipped_share: Float[Array, ""]
+
+
+def make_optimiser(settings: PPOSettings) -> optax.GradientTransformation:
+    """Adam behind a clip of the global gradient norm."""
+    return optax.chain(
+        optax.clip_by_global_norm(settings.max_gradient_norm),
+        optax.adam(settings.learning_rate, eps=1e-5),
+    )
+
+
+def init_learner(
+    key: PRNGKeyArray,
+    settings: PPOSettings,
+    *,
+    observation_size: int,
+    critic_observation_size: int,
+    action_size: int,
+    hidden: Sequence[int],
+    std: float = 0.5,
+    memory: int = 1,
+) -> Learner:
+    """A random policy and critic of the same hidden sizes."""
+    policy_key, critic_key = jax.random.split(key)
+    policy = init_gaussian(
+        policy_key, observation_size, action_size, hidden, std=std, memory=memory
+    )
+    critic = init_mlp(critic_key, (critic_observation_size + 1, *hidden, 1))
+    return start_learner(settings, policy, critic, init_normaliser(critic_observation_size))
+
+
+def start_learner(
+    settings: PPOSettings,
+    policy: GaussianParameters,
+    critic: MLP,
+    critic_normaliser: Normaliser,
+) -> Learner:
+    """A learner that starts from given networks with a fresh optimiser."""
+    optimiser = make_optimiser(settings).init(_trainable(policy, critic))
+    return Learner(policy, critic, critic_normaliser, optimiser)
+
+
+def with_noise(learner: Learner, std: float) -> Learner:
+    """The learner with every action's standard deviation set to `std`."""
+    log_std = jnp.full_like(learner.policy.log_std, jnp.log(std))
+    return learner._replace(policy=learner.policy._replace(log_std=log_std))
+
+
+class _Trainable(TypedDict):
+    """What gradients move; a dict, whose sorted keys order the leaves of the optimiser's state."""
+
+    network: MLP
+    log_std: Float[Array, " a"]
+    critic: MLP
+
+
+def _trainable(policy: GaussianParameters, critic: MLP) -> _Trainable:
+    return {"network": policy.network, "log_std": policy.log_std, "critic": critic}
+
+
+def advantages(
+    reward: Float[Array, "T N"],
+    value: Float[Array, "T N"],
+    *,
+    gamma: float,
+    gae_lambda: float,
+    weight: Float[Array, "T N"] | None = None,
+) -> Float[Array, "T N"]:
+    """Generalised advantage estimates; the value after the last step is 0.
+
+    δₜ = rₜ + γ V(sₜ₊₁) - V(sₜ),  Aₜ = Σₖ (γλ)ᵏ δₜ₊ₖ   (Schulman et al., 2016, Eq. 16)
+
+    Args:
+        reward: rₜ.
+        value: V(sₜ).
+        gamma: Discount γ.
+        gae_lambda: λ; 0 trusts the critic, 1 the returns.
+        weight: 0 from the step on at which physics ran away, where δ is 0: the value of the last
+            sound state stands for the rest of the episode.
+    """
+    next_value = jnp.concatenate([value[1:], jnp.zeros_like(value[:1])])
+    delta = reward + gamma * next_value - value
+    if weight is not None:
+        delta = jnp.where(weight > 0, delta, 0.0)
+
+    def back(carry: Array, step: Array) -> tuple[Array, Array]:
+        total = step + gamma * gae_lambda * carry
+        return total, total
+
+    _, result = jax.lax.scan(back, jnp.zeros_like(delta[0]), delta, reverse=True)
+    return result
+
+
+def critic_values(learner: Learner, observation: Float[Array, "T N c"]) -> Float[Array, "T N"]:
+    """The critic's estimate at every step, given the share of the episode that is left."""
+    return apply_mlp(learner.critic, _with_time(learner.critic_normaliser, observation))[..., 0]
+
+
+def _with_time(
+    normaliser: Normaliser, observation: Float[Array, "T N c"]
+) -> Float[Array, "T N c1"]:
+    steps, episodes = observation.shape[:2]
+    left = 1 - jnp.arange(steps, dtype=jnp.float32) / steps
+    column = jnp.broadcast_to(left[:, None, None], (steps, episodes, 1))
+    return jnp.concatenate([normalise(normaliser, observation), column], axis=-1)
+
+
+def ppo_update(
+    learner: Learner,
+    rollout: Rollout,
+    key: PRNGKeyArray,
+    settings: PPOSettings,
+    pace: Float[Array, ""] | float = 1.0,
+) -> tuple[Learner, Losses]:
+    """One iteration of PPO on one rollout; `settings` must be static under `jit`.
+
+    Args:
+        learner: Policy, critic and optimiser before the iteration.
+        rollout: Episodes that this policy played.
+        key: Consumed.
+        settings: Hyper-parameters.
+        pace: Factor on the policy's learning rate, for schedules.
+    """
+    if settings.update_normaliser:
+        # Moments of this rollout first serve the next one: the policy that acted is the old one.
+        fresh = update_normaliser(learner.policy.normaliser, rollout.observation)
+        fresh_critic = update_normaliser(learner.critic_normaliser, rollout.critic_observation)
+    else:
+        fresh, fresh_critic = learner.policy.normaliser, learner.critic_normaliser
+    value = critic_values(learner, rollout.critic_observation)
+    gain = advantages(
+        rollout.reward,
+        value,
+        gamma=settings.gamma,
+        gae_lambda=settings.gae_lambda,
+        weight=rollout.weight,
+    )
+    mean = mean_action(learner.policy, rollout.observation)
+    samples = {
+        "observation": normalise(learner.policy.normaliser, rollout.observation),
+        "critic": _with_time(learner.critic_normaliser, rollout.critic_observation),
+        "action": rollout.action,
+        "expert": rollout.expert_action,
+        "log_density": log_density(mean, learner.policy.log_std, rollout.action),
+        "advantage": _standardise(gain, rollout.weight),
+        "target": gain + value,
+        "weight": rollout.weight,
+    }
+    count = rollout.reward.size
+    flat = {name: x.reshape(count, *x.shape[2:]) for name, x in samples.items()}
+    if settings.signal_floor > 0:
+        signal = _deviation(gain, rollout.weight)
+        pace = pace * jnp.minimum(signal / settings.signal_floor, 1.0)
+    learner, losses = _epochs(learner, flat, key, settings, pace)
+    policy = learner.policy._replace(normaliser=fresh)
+    return learner._replace(policy=policy, critic_normaliser=fresh_critic), losses
+
+
+def _standardise(x: Float[Array, "T N"], weight: Float[Array, "T N"]) -> Float[Array, "T N"]:
+    mean = (x * weight).sum() / jnp.maximum(weight.sum(), 1.0)
+    return (x - mean) / _deviation(x, weight)
+
+
+def _deviation(x: Float[Array, "T N"], weight: Float[Array, "T N"]) -> Float[Array, ""]:
+    total = jnp.maximum(weight.sum(), 1.0)
+    mean = (x * weight).sum() / total
+    return jnp.sqrt(((x - mean) ** 2 * weight).sum() / total + 1e-8)
+
+
+def _epochs(
+    learner: Learner,
+    samples: dict[str, Array],
+    key: PRNGKeyArray,
+    settings: PPOSettings,
+    pace: Float[Array, ""] | float,
+) -> tuple[Learner, Losses]:
+    count = samples["weight"].shape[0]
+    batches = max(count // settings.minibatch, 1)
+    size = count // batches
+    orders = jax.vmap(lambda k: jax.random.permutation(k, count)[: batches * size])(
+        jax.random.split(key, settings.epochs)
+    ).reshape(settings.epochs * batches, size)
+    optimiser = make_optimiser(settings)
+
+    def step(carry: Learner, order: Array) -> tuple[Learner, Losses]:
+        batch = {name: x[order] for name, x in samples.items()}
+        trainable = _trainable(carry.policy, carry.critic)
+        gradient, losses = jax.grad(_loss, has_aux=True)(trainable, batch, settings)
+        updates, state = optimiser.update(gradient, carry.optimiser, trainable)
+        for part in ("network", "log_std"):  # The critic always learns at its own rate.
+            updates[part] = jax.tree.map(lambda x: pace * x, updates[part])
+        new = optax.apply_updates(trainable, updates)
+        if not settings.learn_std:
+            new["log_std"] = trainable["log_std"]
+        policy = carry.policy._replace(network=new["network"], log_std=new["log_std"])
+        return carry._replace(policy=policy, critic=new["critic"], optimiser=state), losses
+
+    learner, losses = jax.lax.scan(step, learner, orders)
+    return learner, jax.tree.map(lambda x: x[-batches:].mean(), losses)
+
+
+def _loss(
+    trainable: _Trainable, batch: dict[str, Array], settings: PPOSettings
+) -> tuple[Float[Array, ""], Losses]:
+    mean = apply_mlp(trainable["network"], batch["observation"])
+    density = log_density(mean, trainable["log_std"], batch["action"])
+    ratio = jnp.exp(density - batch["log_density"])
+    clipped = jnp.clip(ratio, 1 - settings.clip, 1 + settings.clip)
+    gain, weight = batch["advantage"], batch["weight"]
+    total = jnp.maximum(weight.sum(), 1.0)
+    policy = -(jnp.minimum(ratio * gain, clipped * gain) * weight).sum() / total
+    error = apply_mlp(trainable["critic"], batch["critic"])[:, 0] - batch["target"]
+    value = 0.5 * (error**2 * weight).sum() / total
+    cloning = (((mean - batch["expert"]) ** 2).sum(axis=-1) * weight).sum() / total
+    loss = settings.policy_coefficient * policy + settings.value_coefficient * value
+    loss = loss + settings.cloning_coefficient * cloning
+    entropy = jnp.sum(trainable["log_std"]) + 0.5 * mean.shape[-1] * jnp.log(2 * jnp.pi * jnp.e)
+    outside = (jnp.abs(ratio - 1) > settings.clip).mean()
+    return loss, Losses(policy, value, cloning, entropy, outside)

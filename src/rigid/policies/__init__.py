@@ -1,0 +1,1 @@
+"""What acts: the policy protocol, networks, RIGID's own format, and loaders for other formats."""

@@ -1,0 +1,97 @@
+"""How much a measurement spends: `demo`, `standard` and `paper`."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from rigid.errors import UserError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Preset:
+    """Which λ are trained, for how long, and how carefully they are scored."""
+
+    name: str
+    seeds: tuple[int, ...]
+    """Search seeds; each is one independent history of Algorithm 1."""
+    per_round: tuple[int, ...]
+    """New λ in each round, for each seed: the first round spans the range, later ones refine."""
+    iterations: int
+    """Policy updates of one adversary."""
+    episodes: int
+    """Episodes between two updates."""
+    scoring_episodes: int
+    """Fresh episodes on which each adversary is scored."""
+    referee_episodes: int
+    """Episodes of each adversary for the referee to learn from."""
+    validation_episodes: int
+    """Episodes of each adversary on which the referee stops early and λ is refined."""
+    lambda_min: float = 1e-5
+    lambda_max: float = 10.0
+    """Range of λ (paper, appendix 'Additional Details of the Natural-Adversarial Frontier')."""
+    search_canonical: int = 40
+    """Canonical episodes that the search may see (paper, 'Collecting Canonical Datasets')."""
+    referee_canonical: int = 100
+    """Canonical episodes in each of the referee's three parts. Ours."""
+    stamp: str | None = None
+    """Printed on the report."""
+
+    @property
+    def adversaries(self) -> int:
+        """Policies trained in all."""
+        return len(self.seeds) * sum(self.per_round)
+
+    def env_steps(self, horizon: int) -> int:
+        """Environment steps of training in all."""
+        return self.adversaries * self.iterations * self.episodes * horizon
+
+    def describe(self) -> dict[str, Any]:
+        """Every number, as JSON."""
+        return asdict(self)
+
+
+PRESETS = {
+    "demo": Preset(
+        name="demo",
+        seeds=(0, 1, 2),
+        per_round=(3, 1),
+        iterations=40,
+        episodes=32,
+        scoring_episodes=60,
+        referee_episodes=40,
+        validation_episodes=24,
+        stamp="demo: not for publication",
+    ),
+    "standard": Preset(
+        name="standard",
+        seeds=tuple(range(8)),
+        per_round=(6,),
+        iterations=120,
+        episodes=48,
+        scoring_episodes=200,
+        referee_episodes=100,
+        validation_episodes=50,
+    ),
+    # Paper, appendices 'Computational Complexity' and 'Additional Details of the ... Frontier'.
+    "paper": Preset(
+        name="paper",
+        seeds=(0, 1, 2),
+        per_round=(6, 6, 6),
+        iterations=120,
+        episodes=48,
+        scoring_episodes=200,
+        referee_episodes=100,
+        validation_episodes=50,
+    ),
+}
+
+
+def find_preset(name: str) -> Preset:
+    """The preset called `name`; raises `UserError` listing the presets."""
+    if name not in PRESETS:
+        close = difflib.get_close_matches(name, PRESETS, n=1)
+        suggestion = f", did you mean {close[0]!r}?" if close else ";"
+        raise UserError(f"preset {name!r} is unknown{suggestion} presets: {', '.join(PRESETS)}")
+    return PRESETS[name]

@@ -1,0 +1,146 @@
+"""From a run directory to what the report shows.
+
+Nothing that a run directory names is imported; the task is looked up among RIGID's own, and without
+it the report simply has no replays.
+"""
+
+from __future__ import annotations
+
+import json
+import zipfile
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.errors import UserError
+from rigid.files import read_bytes
+from rigid.frontier.result import Frontier, load_frontier, measured_points
+from rigid.frontier.statistics import interval_band, sound_points_by_seed
+from rigid.report.build import build_report
+from rigid.report.poses import encode_poses
+from rigid.tasks.protocol import Task
+from rigid.tasks.registry import task_from_description
+
+_LEARNING = {
+    "return": "mean_return",
+    "score_canonical": "score_canonical",
+    "score_adversary": "score_adversary",
+    "accuracy_canonical": "accuracy_canonical",
+    "accuracy_adversary": "accuracy_adversary",
+    "entropy": "entropy",
+}
+_GRID = 101
+"""Places on the x axis at which the interval band is drawn."""
+
+
+def write_report(directory: Path, out: Path | None = None) -> Path:
+    """Writes the report of a finished run and returns its path (`report.html` in the run).
+
+    Raises:
+        UserError: The run is not finished, a file of it is damaged, or `out` cannot be written.
+    """
+    run = RunDirectory(directory)
+    frontier = load_frontier(directory)
+    return build_report(gather(frontier, read_settings(run)), out or run.report)
+
+
+def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """The report's `Payload`, read from the run directory of `frontier`."""
+    described = settings["identity"].get("task")
+    task = task_from_description(described) if isinstance(described, Mapping) else None
+    directory = frontier.directory
+    return {
+        "frontier": frontier.data,
+        "settings": settings,
+        "stamp": frontier.data.get("stamp"),
+        "band": band(frontier),
+        "passive": frontier.data.get("passive"),
+        "learning": {p["id"]: learning_curves(directory, p["id"]) for p in frontier.points},
+        "scene": None if task is None else task.scene(),
+        "replays": None if task is None else replays(frontier, task),
+    }
+
+
+def band(frontier: Frontier) -> dict[str, Any]:
+    """Mean and interval of the per-seed hulls on a grid of naturalness."""
+    seeds = [int(seed) for seed in frontier.data["auc_by_seed"]]
+    grid = np.linspace(0.0, 1.0, _GRID)
+    anchor = frontier.data["canonical"]["adversarialness"]
+    by_seed = sound_points_by_seed(measured_points(frontier.points), seeds)
+    found = interval_band(by_seed, dict.fromkeys(seeds, anchor), grid)
+    return {
+        "x": grid.tolist(),
+        "mean": found.mean.tolist(),
+        "low": None if found.low is None else found.low.tolist(),
+        "high": None if found.high is None else found.high.tolist(),
+    }
+
+
+def learning_curves(directory: Path, point: str) -> dict[str, list[float]]:
+    """One adversary's training, iteration by iteration."""
+    path = directory / "adversaries" / point / "metrics.jsonl"
+    cure = "measure again to get its learning curves back"
+    try:
+        rows = [json.loads(line) for line in read_bytes(path, cure=cure).splitlines()]
+        curves = {name: [float(row[key]) for row in rows] for name, key in _LEARNING.items()}
+        return {"iteration": [float(row["iteration"]) for row in rows], **curves}
+    except (ValueError, KeyError, TypeError):
+        raise UserError(f"{path} is damaged: {cure}") from None
+
+
+def replays(frontier: Frontier, task: Task) -> dict[str, Any] | None:
+    """Worst and median episode of every adversary, and canonical motion from the same starts.
+
+    None when the task shows nothing of an episode.
+    """
+    shown: dict[str, Any] = {"canonical": {}}
+    for point in frontier.points:
+        arrays = _episodes(frontier.directory / "adversaries" / point["id"] / "episodes.npz")
+        if arrays["snapshots"].shape[-1] == 0:
+            return None
+        entry = {}
+        for number, kind in enumerate(("worst", "median")):
+            episode = arrays["shown"][number]
+            seed = int(arrays["seeds"][episode])
+            entry[kind] = {
+                **_motion(task, arrays["snapshots"][number]),
+                **_ending(task, seed, arrays["returns"][episode], arrays["outcome"][episode]),
+            }
+            if str(seed) not in shown["canonical"]:
+                ended = arrays["canonical_returns"][number], arrays["canonical_outcome"][number]
+                shown["canonical"][str(seed)] = {
+                    **_motion(task, arrays["canonical_snapshots"][number]),
+                    **_ending(task, seed, *ended),
+                }
+        shown[point["id"]] = entry
+    return shown
+
+
+def _motion(task: Task, snapshots: np.ndarray) -> dict[str, Any]:
+    """One replay, with its poses packed for the page."""
+    shown = dict(task.replay(snapshots))
+    if "poses" in shown:
+        shown["poses"] = encode_poses(shown["poses"])
+    return shown
+
+
+def _ending(task: Task, seed: int, total: np.ndarray, outcome: np.ndarray) -> dict[str, Any]:
+    """How an episode ended, under the report's names."""
+    return {
+        "seed": seed,
+        "return": round(float(total), 2),
+        "outcome": task.outcome_names[int(outcome)],
+    }
+
+
+def _episodes(path: Path) -> Mapping[str, np.ndarray]:
+    cure = "measure again to get its replays back"
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+        raise UserError(f"{path} cannot be read ({error}): {cure}") from None

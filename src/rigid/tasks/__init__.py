@@ -1,0 +1,1 @@
+"""The two-player world: protocol, bodies, tasks and their views in other libraries."""

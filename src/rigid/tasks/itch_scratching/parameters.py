@@ -1,0 +1,109 @@
+"""Everything about itch scratching that a study may vary, with the source of each number."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from statistics import NormalDist
+from typing import Literal
+
+from rigid.errors import UserError
+from rigid.tasks.bodies.human import BODIES, BodySize
+
+Impairment = Literal["none", "limits", "weakness", "tremor"]
+
+# Stature, mean and standard deviation [m]: ANSUR II (2012), U.S. Army men and women.
+_STATURE = {"male": (1.756, 0.0686), "female": (1.629, 0.0642)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RewardWeights:
+    """Weights of the reward terms; the reward is shared by robot and human.
+
+    Assistive Gym's values, but for `distance` and `unwanted_contact`: the paper raises the first
+    and adds the second (appendix, 'Additional Details of the Environment Setup') without numbers.
+    """
+
+    distance: float = 3.0
+    """Per metre between tip and itch. Ours: three times Assistive Gym's 1.0."""
+    scratch: float = 5.0
+    """Per counted contact (Assistive Gym)."""
+    action: float = 0.01
+    """Per unit of the joint action's 2-norm (Assistive Gym)."""
+    velocity: float = 0.25
+    """Per m/s of the end effector (Assistive Gym)."""
+    other_force: float = 0.01
+    """Per newton on the person away from the itch (Assistive Gym)."""
+    high_force: float = 0.05
+    """Per newton at the itch from 10 N on (Assistive Gym)."""
+    unwanted_contact: float = 2.0
+    """Per step in which the robot touches the person anywhere but on the arms. Ours."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ItchScratchingParameters:
+    """Body, impairment, itch and physics of one itch-scratching task."""
+
+    body: Literal["male", "female"] = "male"
+    """Which capsule body sits in the chair. The original draws it anew in every episode; a fixed
+    body keeps naturalness a property of the motion."""
+    percentile: float = 50.0
+    """Stature percentile of that body, in [5, 95]; radii and mass follow stature."""
+    impairment: Impairment = "none"
+    severity: float = 1.0
+    """Share of the impairment's full strength, in [0, 1]. Full strength (Assistive Gym's worst
+    draw): joint range halved, strength a quarter, tremor of ±10°."""
+    itch_limbs: tuple[Literal["forearm", "upper_arm"], ...] = ("forearm", "upper_arm")
+    """Where it can itch: the middle of each named limb (paper: two fixed points)."""
+    servo: Literal["paper", "datasheet"] = "paper"
+    """Torque caps of the arm: 1 N·m on every joint as in the original (its forces are unlike
+    those of a real arm) or Kinova's data sheet."""
+    weights: RewardWeights = field(default_factory=RewardWeights)
+    horizon: int = 100
+    """Control steps of an episode (paper, appendix B)."""
+    physics_step: float = 0.02
+    """[s], as the original."""
+    substeps: int = 5
+    """Physics steps in a control step: 10 Hz (the original)."""
+
+    def __post_init__(self) -> None:
+        """Checks every value; raises `UserError` naming the bad one."""
+        _require(self.body in BODIES, "body", self.body, f"one of {sorted(BODIES)}")
+        _require(5 <= self.percentile <= 95, "percentile", self.percentile, "in [5, 95]")
+        _require(0 <= self.severity <= 1, "severity", self.severity, "in [0, 1]")
+        kinds = ("none", "limits", "weakness", "tremor")
+        _require(self.impairment in kinds, "impairment", self.impairment, f"one of {kinds}")
+        limbs = ("forearm", "upper_arm")
+        known = bool(self.itch_limbs) and set(self.itch_limbs) <= set(limbs)
+        _require(known, "itch_limbs", self.itch_limbs, f"one or both of {limbs}")
+        _require(self.servo in ("paper", "datasheet"), "servo", self.servo, "paper or datasheet")
+        _require(self.horizon >= 1, "horizon", self.horizon, "at least 1 step")
+        _require(0 < self.physics_step <= 0.02, "physics_step", self.physics_step, "in (0, 0.02] s")
+        _require(self.substeps >= 1, "substeps", self.substeps, "at least 1")
+
+    @property
+    def body_size(self) -> BodySize:
+        """The body at the chosen percentile; girth follows stature to the power 1/2 (ours)."""
+        mean, deviation = _STATURE[self.body]
+        quantile = NormalDist().inv_cdf(self.percentile / 100)
+        stature = 1 + quantile * deviation / mean
+        return BODIES[self.body].scaled(stature, stature**0.5)
+
+    @property
+    def limit_scale(self) -> float:
+        """Factor on the arm's joint range."""
+        return 1 - 0.5 * self.severity if self.impairment == "limits" else 1.0
+
+    @property
+    def strength(self) -> float:
+        """Factor on the arm's torque caps. In the original it weakens only a passive human."""
+        return 1 - 0.75 * self.severity if self.impairment == "weakness" else 1.0
+
+    @property
+    def tremor_deg(self) -> float:
+        """Amplitude of the tremor [deg]; its sign flips every control step."""
+        return 10.0 * self.severity if self.impairment == "tremor" else 0.0
+
+
+def _require(condition: bool, name: str, value: object, allowed: str) -> None:
+    if not condition:
+        raise UserError(f"itch-scratching: {name} is {value!r}, but must be {allowed}")

@@ -1,0 +1,160 @@
+"""What the report shows of an episode: poses, and forces simulated again at a millisecond.
+
+Training runs at 0.02 s, where a hit lasts a step or two. For people to look at, every control step
+is simulated again from its recorded state with physics steps of at most 0.001 s, all steps side by
+side; the recorded motion stays, and contacts are resolved in time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import mujoco
+import numpy as np
+from jaxtyping import Float
+from mujoco.batch import Batch
+
+from rigid.tasks.bodies import human, jaco, scratcher
+from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
+from rigid.tasks.itch_scratching.reward import SUCCESS_CONTACTS
+from rigid.tasks.itch_scratching.scene import LIMBS, build_spec
+from rigid.tasks.itch_scratching.sensing import Sensors
+
+FINE_STEP = 0.001
+"""Longest physics step of forces that people look at [s] (ours)."""
+_KINDS = {"itch": 0, "arm": 1, "unwanted": 2}
+_TYPES = {
+    mujoco.mjtGeom.mjGEOM_CAPSULE: "capsule",
+    mujoco.mjtGeom.mjGEOM_SPHERE: "sphere",
+    mujoco.mjtGeom.mjGEOM_BOX: "box",
+    mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
+    mujoco.mjtGeom.mjGEOM_ELLIPSOID: "ellipsoid",
+}
+
+
+def scene(model: mujoco.MjModel) -> dict[str, Any]:
+    """Bodies and shapes as the report draws them."""
+    bodies = [model.body(i).name for i in range(model.nbody)]
+    geoms = []
+    for index in range(model.ngeom):
+        geom = model.geom(index)
+        body = int(geom.bodyid[0])
+        geoms.append({
+            "name": geom.name,
+            "body": body,
+            "type": _TYPES[mujoco.mjtGeom(int(geom.type[0]))],
+            "size": [round(float(x), 5) for x in geom.size],
+            "pos": [round(float(x), 5) for x in geom.pos],
+            "quat": [round(float(x), 6) for x in geom.quat],
+            "rgba": [round(float(x), 3) for x in geom.rgba],
+            "role": _role(bodies[body]),
+        })  # fmt: skip
+    return {"bodies": bodies, "geoms": geoms}
+
+
+def _role(body: str) -> str:
+    if body == "wheelchair":
+        return "chair"
+    if body == "scratcher":
+        return "tool"
+    return "robot" if body.startswith("jaco") else "human"
+
+
+def replay(
+    parameters: ItchScratchingParameters, snapshots: Float[np.ndarray, "T1 state"]
+) -> Mapping[str, Any]:
+    """One episode from its snapshots (`World.snapshot` after the reset and after each step)."""
+    fine, count = _fine(parameters)
+    model = build_spec(fine).compile()
+    itch = int(snapshots[0, -2])
+    records = _simulate_again(model, snapshots, count)
+    contacts = Sensors(model).contacts(records, np.full(len(records), itch))
+    poses, distance = _motion(model, snapshots, f"itch_{LIMBS[itch]}")
+    moving = [i for i in range(model.nbody) if model.body_weldid[i] != 0]
+    site = model.site(f"itch_{LIMBS[itch]}")
+    counted = snapshots[:, -1].astype(int).tolist()
+    return {
+        "dt": round(parameters.physics_step * parameters.substeps, 6),
+        "frames": len(snapshots),
+        "bodies": moving,
+        "poses": poses[:, moving],
+        "itch": {
+            "body": int(site.bodyid[0]),
+            "pos": [round(float(x), 5) for x in site.pos],
+            "limb": LIMBS[itch].replace("_", " "),
+        },
+        "force_unwanted": _series(contacts.force_unwanted.max(axis=1)),
+        "force_itch": _series(contacts.force_itch.max(axis=1)),
+        "distance": distance.round(4).tolist(),
+        "counted": counted,
+        "contacts": _contact_marks(model, snapshots),
+        "success": counted[-1] >= SUCCESS_CONTACTS,
+    }
+
+
+def _motion(
+    model: mujoco.MjModel, snapshots: Float[np.ndarray, "T1 state"], itch: str
+) -> tuple[Float[np.ndarray, "T1 bodies 7"], Float[np.ndarray, " T1"]]:
+    """Pose of every body (position [m], quaternion) and distance of tip and itch [m]."""
+    data = mujoco.MjData(model)
+    poses, distances = [], []
+    for snapshot in snapshots:
+        data.qpos[:] = snapshot[: model.nq]
+        mujoco.mj_kinematics(model, data)
+        poses.append(np.concatenate([data.xpos, data.xquat], axis=1))
+        gap = data.site(scratcher.TIP_SITE).xpos - data.site(itch).xpos
+        distances.append(np.linalg.norm(gap))
+    return np.array(poses), np.array(distances)
+
+
+def _fine(parameters: ItchScratchingParameters) -> tuple[ItchScratchingParameters, int]:
+    """The same scene with steps of at most `FINE_STEP`, and how many fill a control step."""
+    control = parameters.physics_step * parameters.substeps
+    count = int(np.ceil(control / FINE_STEP))
+    return replace(parameters, physics_step=control / count, substeps=count), count
+
+
+def _simulate_again(
+    model: mujoco.MjModel, snapshots: Float[np.ndarray, "T1 state"], count: int
+) -> Float[np.ndarray, "T S n"]:
+    """Sensors of every fine physics step: one world for each control step of the episode."""
+    size = model.nq
+    batch = Batch(model, len(snapshots) - 1)
+    batch.bind("qpos")[:] = snapshots[:-1, :size]
+    batch.bind("qvel")[:] = snapshots[:-1, size : 2 * size]
+    batch.bind("ctrl")[:] = snapshots[1:, 2 * size : 3 * size]
+    return np.asarray(batch.rollout(count, record=("sensordata",))["sensordata"])
+
+
+def _contact_marks(
+    model: mujoco.MjModel, snapshots: Float[np.ndarray, "T1 state"]
+) -> list[list[float]]:
+    """Where robot and person touch at the end of each step: frame, place, force and kind."""
+    data = mujoco.MjData(model)
+    size, marks = model.nq, []
+    robot = model.body(jaco.BASE_BODY).id
+    trunk = {model.body(name).id for name in human.TRUNK_PARTS}
+    people = trunk | {model.body(name).id for name in human.ARM_PARTS}
+    limb = model.body(f"right_{LIMBS[int(snapshots[0, -2])]}").id
+    force = np.zeros(6)
+    for frame in range(1, len(snapshots)):
+        data.qpos[:], data.qvel[:] = snapshots[frame, :size], snapshots[frame, size : 2 * size]
+        data.ctrl[:] = snapshots[frame, 2 * size : 3 * size]
+        mujoco.mj_forward(model, data)
+        for index, contact in enumerate(data.contact):
+            bodies = model.geom_bodyid[list(contact.geom)]
+            touched = next((int(b) for b in bodies if int(b) in people), None)
+            if touched is None or robot not in model.body_rootid[bodies]:
+                continue
+            mujoco.mj_contactForce(model, data, index, force)
+            kind = "unwanted" if touched in trunk else "itch" if touched == limb else "arm"
+            place = [round(float(x), 4) for x in contact.pos]
+            marks.append([frame, *place, round(float(force[0]), 2), _KINDS[kind]])
+    return marks
+
+
+def _series(per_step: Float[np.ndarray, " T"]) -> list[float]:
+    """One value for each frame; nothing has happened at the first."""
+    return [0.0, *(round(float(x), 3) for x in per_step)]

@@ -1,0 +1,123 @@
+"""From MuJoCo's flat sensor array to named quantities; indices are resolved by name at load."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from rigid.tasks.bodies import human, jaco, scratcher
+from rigid.tasks.itch_scratching.scene import CONTACTS_PER_PART, LIMBS
+
+SCRATCH_RADIUS = 0.025
+"""A contact counts within this distance of the itch [m] (Assistive Gym)."""
+_ARM_LANDMARKS = ("right_shoulder_joint", "right_elbow", "right_wrist")
+
+
+class Contacts(NamedTuple):
+    """Contacts of one control step; forces are sums of normal components [N]."""
+
+    force_on_person: Float[np.ndarray, "B S"]
+    """Robot or tool on the person, at each of S physics steps."""
+    force_unwanted: Float[np.ndarray, "B S"]
+    """The part of it outside the arms."""
+    touched_unwanted: Bool[np.ndarray, " B"]
+    force_itch: Float[np.ndarray, "B S"]
+    """Tip and rod on the itching limb within `SCRATCH_RADIUS` of the itch."""
+    itch_touched: Bool[np.ndarray, " B"]
+    itch_contact: Float[np.ndarray, "B 3"]
+    """Where the last such contact was [m], world frame; undefined where none was."""
+    tool_force: Float[np.ndarray, " B"]
+    """Tool on anything at the last physics step."""
+
+
+class Poses(NamedTuple):
+    """Where things are at the start of the last physics step, world frame [m]."""
+
+    tip: Float[np.ndarray, "B 3"]
+    tip_quaternion: Float[np.ndarray, "B 4"]
+    end_effector_speed: Float[np.ndarray, " B"]
+    itches: Float[np.ndarray, "B 2 3"]
+    """Both itch points, in the order of `LIMBS`."""
+    arm: Float[np.ndarray, "B 3 3"]
+    """Right shoulder, elbow and wrist."""
+
+
+class Sensors:
+    """Slices of `sensordata` for one model."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        parts = human.ARM_PARTS + human.TRUNK_PARTS
+        self._person = np.stack([_normals(model, f"contact_{part}") for part in parts])
+        self._trunk = slice(len(human.ARM_PARTS), len(parts))
+        geoms = (scratcher.TIP_GEOM, scratcher.ROD_GEOM)
+        self._scratch = np.array(
+            [[_start(model, f"{geom}_{limb}") for geom in geoms] for limb in LIMBS]
+        )
+        roots = (jaco.BASE_BODY, "right_shoulder")
+        self._penetration = np.array([_start(model, f"penetration_{root}") for root in roots])
+        self._tool = _normals(model, "contact_tool")
+        self._tip = _start(model, "tip_position") + np.arange(3)
+        self._tip_quaternion = _start(model, "tip_rotation") + np.arange(4)
+        self._velocity = _start(model, "end_effector_velocity") + np.arange(3)
+        self._itches = np.stack([_start(model, f"itch_{limb}") + np.arange(3) for limb in LIMBS])
+        self._arm = np.stack([_start(model, name) + np.arange(3) for name in _ARM_LANDMARKS])
+
+    def poses(self, data: Float[np.ndarray, "B n"]) -> Poses:
+        """Reads poses from one physics step's sensors."""
+        return Poses(
+            tip=data[:, self._tip],
+            tip_quaternion=data[:, self._tip_quaternion],
+            end_effector_speed=np.linalg.norm(data[:, self._velocity], axis=1),
+            itches=data[:, self._itches],
+            arm=data[:, self._arm],
+        )
+
+    def contacts(self, data: Float[np.ndarray, "B S n"], itch: Int[np.ndarray, " B"]) -> Contacts:
+        """Accumulates the contacts of all S physics steps of a control step.
+
+        Args:
+            data: `sensordata` after each physics step. MuJoCo's sensors describe the state before
+                the step, so entry s holds the forces that acted during physics step s.
+            itch: The limb that itches, index into `LIMBS`.
+        """
+        batch = np.arange(len(data))
+        normals = data[:, :, self._person]  # [B, S, parts, contacts]
+        by_part = normals.sum(axis=-1)
+        unwanted = by_part[:, :, self._trunk].sum(axis=-1)
+        # [B, S, geoms] of the itching limb: found, normal force, position.
+        columns = self._scratch[itch][:, None, :]
+        rows, steps = batch[:, None, None], np.arange(data.shape[1])[None, :, None]
+        found = data[rows, steps, columns] > 0
+        force = data[rows, steps, columns + 1]
+        place = data[rows[..., None], steps[..., None], columns[..., None] + np.arange(4, 7)]
+        itch_place = data[rows[..., None], steps[..., None], self._itches[itch][:, None, None, :]]
+        near = found & (np.linalg.norm(place - itch_place, axis=-1) < SCRATCH_RADIUS)
+        flat = near.reshape(len(data), -1)
+        last = flat.shape[1] - 1 - np.argmax(flat[:, ::-1], axis=1)
+        return Contacts(
+            force_on_person=by_part.sum(axis=-1),
+            force_unwanted=unwanted,
+            touched_unwanted=(unwanted > 0).any(axis=1),
+            force_itch=np.where(near, force, 0.0).sum(axis=-1),
+            itch_touched=flat.any(axis=1),
+            itch_contact=place.reshape(len(data), -1, 3)[batch, last],
+            tool_force=data[:, -1, self._tool].sum(axis=-1),
+        )
+
+    def penetration(self, data: Float[np.ndarray, "B S n"]) -> Float[np.ndarray, " B"]:
+        """Deepest overlap of robot or arm with anything in a control step [m]."""
+        depth: np.ndarray = -data[:, :, self._penetration].min(axis=(1, 2))
+        return depth
+
+
+def _start(model: mujoco.MjModel, name: str) -> int:
+    return int(model.sensor(name).adr[0])
+
+
+def _normals(model: mujoco.MjModel, name: str) -> np.ndarray:
+    """Columns of the normal component of each contact kept by a force-only sensor."""
+    columns: np.ndarray = _start(model, name) + 3 * np.arange(CONTACTS_PER_PART)
+    return columns

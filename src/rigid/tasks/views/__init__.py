@@ -1,0 +1,1 @@
+"""The tasks as environments of other libraries: one world each, two players or one."""

@@ -1,0 +1,75 @@
+"""A preset that fits a time: fewer iterations first, then fewer seeds."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from rigid.compute.budget import FIXED_SECONDS, fit_to, stored_preset, training_speed
+from rigid.errors import UserError
+from tests.compute.tiny import TINY
+from tests.toys import ToyReach
+
+PRESET = replace(TINY, seeds=(0, 1, 2, 3), iterations=100, episodes=10)
+HORIZON = 10
+FULL = PRESET.env_steps(HORIZON)
+
+
+def fitted(share: float):
+    """For a machine that trains one step in a second, and a share of the time for all steps."""
+    seconds = FIXED_SECONDS + share * FULL
+    return fit_to(PRESET, seconds, horizon=HORIZON, steps_per_second=1.0)
+
+
+def test_enough_time_changes_nothing():
+    assert fitted(1.0) == PRESET
+
+
+def test_iterations_go_first():
+    assert fitted(0.5) == replace(PRESET, iterations=50)
+
+
+def test_seeds_go_when_twenty_iterations_are_left():
+    assert fitted(0.1) == replace(PRESET, iterations=20, seeds=(0, 1))
+
+
+@pytest.mark.parametrize("share", [0.06, 0.2, 0.55, 0.97])
+def test_what_was_fitted_takes_no_longer_than_there_is_time(share):
+    assert fitted(share).env_steps(HORIZON) <= share * FULL
+
+
+def test_too_little_time_for_one_seed_is_refused_with_the_least_that_would_do():
+    least = FIXED_SECONDS + FULL / 4 * 0.2
+    message = rf"--budget is too short for preset 'tiny': .* takes about {least:.0f} s here"
+    with pytest.raises(UserError, match=message):
+        fitted(0.04)
+    assert fit_to(PRESET, least, horizon=HORIZON, steps_per_second=1.0).seeds == (0,)
+
+
+def test_no_time_at_all_is_refused():
+    with pytest.raises(UserError, match="too short"):
+        fit_to(PRESET, 1.0, horizon=HORIZON, steps_per_second=1e9)
+
+
+def test_a_run_that_was_begun_keeps_its_budget(tmp_path, single_run):
+    other = replace(TINY, iterations=999, per_round=(6,))
+    assert stored_preset(single_run.directory, other) == replace(TINY, seeds=(0,))
+    assert stored_preset(tmp_path, other) is None
+
+
+@pytest.mark.parametrize("text", ["{", "[]", '{"identity": {"preset": {"per_round": 6}}}'])
+def test_damaged_settings_hold_no_budget(tmp_path, text):
+    (tmp_path / "settings.json").write_text(text)
+    assert stored_preset(tmp_path, TINY) is None
+
+
+def test_a_preset_survives_its_way_through_settings(tmp_path):
+    stored = {"identity": {"preset": PRESET.describe()}, "seeds": [0, 1, 2, 3]}
+    (tmp_path / "settings.json").write_text(json.dumps(stored))
+    assert stored_preset(tmp_path, TINY) == PRESET
+
+
+def test_speed_is_measured_by_stepping_the_task():
+    assert training_speed(ToyReach()) > 0

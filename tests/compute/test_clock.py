@@ -1,0 +1,50 @@
+"""Time adds up over the sessions of one measurement."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from rigid.compute.clock import Clock
+from rigid.errors import UserError
+
+
+def test_a_clock_begins_near_zero():
+    assert Clock().read()["wall_seconds"] < 60
+
+
+def test_later_sessions_go_on_where_the_note_stopped(tmp_path):
+    note = tmp_path / "groups" / "spent.json"
+    note.parent.mkdir()
+    note.write_text('{"core_seconds": 1000.0, "wall_seconds": 500.0}')
+    clock = Clock()
+    clock.go_on(note)
+    assert clock.read()["core_seconds"] >= 1000
+    clock.keep()
+    assert json.loads(note.read_text())["wall_seconds"] >= 500
+
+
+def test_a_first_session_leaves_a_note(tmp_path):
+    clock = Clock()
+    clock.go_on(tmp_path / "groups" / "spent.json")
+    clock.keep()
+    assert set(json.loads((tmp_path / "groups" / "spent.json").read_text())) == {
+        "core_seconds", "wall_seconds",
+    }  # fmt: skip
+
+
+def test_notes_are_not_taken_at_every_tick(tmp_path):
+    clock = Clock()
+    clock.go_on(tmp_path / "spent.json")
+    clock.keep()
+    (tmp_path / "spent.json").unlink()
+    clock.tick()
+    assert not (tmp_path / "spent.json").exists()
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"core_seconds": null, "wall_seconds": 1}'])
+def test_a_damaged_note_is_named_with_its_cure(tmp_path, text):
+    (tmp_path / "spent.json").write_text(text)
+    with pytest.raises(UserError, match=r"spent\.json is damaged: delete it; only the times"):
+        Clock().go_on(tmp_path / "spent.json")

@@ -1,0 +1,154 @@
+"""Which directories a measurement may use, and what is said about the others."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from rigid.compute import run_directory
+from rigid.compute.run_directory import check_place, open_run, provenance, read_settings
+from rigid.errors import UserError
+
+IDENTITY = {"preset": {"iterations": 20, "name": "tiny"}, "task": {"name": "toy"}}
+
+
+def begin(path: Path, seeds=(0,), **changes):
+    return open_run(path, {**IDENTITY, **changes}, seeds, ["rigid", "frontier"])
+
+
+def test_a_new_directory_is_made_with_its_settings(tmp_path):
+    opened = begin(tmp_path / "runs" / "new", seeds=(2, 0))
+    assert opened.seeds == (0, 2)
+    stored = read_settings(opened.directory)
+    assert stored["identity"] == IDENTITY
+    assert stored["provenance"]["command"] == "rigid frontier"
+
+
+def test_the_same_settings_go_on_and_change_nothing(tmp_path):
+    first = begin(tmp_path)
+    before = first.directory.settings.read_bytes()
+    assert begin(tmp_path) == first
+    assert first.directory.settings.read_bytes() == before
+
+
+def test_seeds_of_earlier_commands_stay(tmp_path):
+    begin(tmp_path, seeds=(0, 3))
+    assert begin(tmp_path, seeds=(1,)).seeds == (0, 1, 3)
+    assert begin(tmp_path, seeds=(3,)).seeds == (0, 1, 3)
+
+
+def test_a_result_that_lacks_a_seed_is_taken_away_with_its_report(tmp_path):
+    run = begin(tmp_path, seeds=(0,)).directory
+    for path in (run.frontier, run.report):
+        path.write_text("old")
+    begin(tmp_path, seeds=(0,))
+    assert run.frontier.exists()
+    begin(tmp_path, seeds=(1,))
+    assert not run.frontier.exists()
+    assert not run.report.exists()
+
+
+def test_other_settings_are_named_and_nothing_is_overwritten(tmp_path):
+    settings = begin(tmp_path).directory.settings
+    before = settings.read_bytes()
+    with pytest.raises(UserError, match=r"preset\.iterations is 20 there and 40 here; choose anot"):
+        begin(tmp_path, seeds=(7,), preset={"iterations": 40, "name": "tiny"})
+    assert settings.read_bytes() == before
+
+
+def test_a_long_value_is_cut_in_the_message(tmp_path):
+    begin(tmp_path, robot="a" * 64)
+    with pytest.raises(UserError, match=r"robot is a{37}… there and b{37}… here"):
+        begin(tmp_path, robot="b" * 64)
+
+
+def test_a_directory_of_something_else_is_refused(tmp_path):
+    (tmp_path / "thesis.tex").touch()
+    with pytest.raises(UserError, match=r"is not empty and holds no measurement .*--out"):
+        begin(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_what_a_run_left_that_was_killed_at_its_first_write_does_not_count(tmp_path):
+    (tmp_path / ".settings.json.4711.tmp").touch()
+    assert begin(tmp_path).seeds == (0,)
+
+
+@pytest.mark.parametrize("below", ["", "runs", "runs/first"])
+def test_a_place_below_a_file_cannot_be_written(tmp_path, below):
+    (tmp_path / "file").touch()
+    with pytest.raises(UserError, match=r"cannot write to .*file.* \(.*\): choose another place"):
+        check_place(tmp_path / "file" / below)
+
+
+def test_a_place_without_permission_cannot_be_written(tmp_path, monkeypatch):
+    monkeypatch.setattr(run_directory.os, "access", lambda *_: False)  # Root may write anywhere.
+    with pytest.raises(UserError, match=r"cannot write to .*new \(no permission\)"):
+        check_place(tmp_path / "new")
+
+
+def test_a_finished_run_may_be_read_only(tmp_path, monkeypatch):
+    begin(tmp_path).directory.frontier.touch()
+    monkeypatch.setattr(run_directory.os, "access", lambda *_: False)
+    assert begin(tmp_path).seeds == (0,)
+
+
+def test_checking_a_place_makes_nothing(tmp_path):
+    check_place(tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def stored_but(tmp_path, **changes) -> str:
+    stored = read_settings(begin(tmp_path / "sound").directory)
+    return json.dumps({**stored, **changes})
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", '{"schema": 1}', "null", b"\xff\xfe"],
+    ids=["empty", "cut off", "a list", "without seeds", "null", "no text"],
+)
+def test_damaged_settings_are_refused(tmp_path, text):
+    path = tmp_path / "settings.json"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(UserError, match=r"settings\.json is damaged: choose another directory"):
+        begin(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"seeds": "0"}, {"seeds": [0.5]}, {"identity": "mine"}, {"provenance": {"versions": None}}],
+    ids=repr,
+)
+def test_settings_of_the_wrong_type_are_damaged(tmp_path, changes):
+    (tmp_path / "settings.json").write_text(stored_but(tmp_path, **changes))
+    with pytest.raises(UserError, match=r"settings\.json is damaged"):
+        begin(tmp_path)
+
+
+def test_settings_of_a_newer_schema_are_refused(tmp_path):
+    (tmp_path / "settings.json").write_text('{"schema": 2}')
+    with pytest.raises(UserError, match=r"has schema 2, this RIGID reads 1"):
+        begin(tmp_path)
+
+
+def test_a_library_that_changed_since_is_warned_about(tmp_path):
+    settings = begin(tmp_path).directory.settings
+    stored = json.loads(settings.read_text())
+    stored["provenance"]["versions"]["jax"] = "0.0.1"
+    settings.write_text(json.dumps(stored))
+    (warning,) = begin(tmp_path).warnings
+    assert warning.startswith("this run was begun with jax 0.0.1, now it is ")
+
+
+def test_provenance_names_versions_machine_and_command():
+    made_by = provenance(["rigid", "frontier", "--seeds", "0"])
+    assert made_by["command"] == "rigid frontier --seeds 0"
+    assert {"mujoco", "jax", "numpy"} <= set(made_by["versions"])
+
+
+def test_a_repository_around_an_installed_package_is_not_its_commit(monkeypatch, tmp_path):
+    monkeypatch.setattr(run_directory, "__file__", str(tmp_path / "run_directory.py"))
+    assert provenance([])["git_commit"] is None

@@ -1,0 +1,8 @@
+"""`rigid` as its users run it, with one more preset."""
+
+from rigid.cli import main
+from rigid.presets import PRESETS
+from tests.compute.tiny import TINY
+
+PRESETS[TINY.name] = TINY
+main()

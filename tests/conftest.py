@@ -1,0 +1,18 @@
+"""Settings of the whole suite, made before anything imports jax; subprocesses inherit them."""
+
+import os
+from pathlib import Path
+
+from hypothesis import settings
+
+_CACHE = Path(__file__).parents[1] / ".cache" / "jax"
+
+os.environ.setdefault("JAX_PLATFORMS", "cpu")  # The same numbers with and without a GPU.
+os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(_CACHE))
+os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.1")  # [s]
+# (n,) + (n, 1) is a mistake more often than an outer sum. Dtypes are not strict: optax mixes them.
+os.environ.setdefault("JAX_NUMPY_RANK_PROMOTION", "raise")
+
+# A shared machine may pause any example; the same examples every time make failures repeatable.
+settings.register_profile("suite", deadline=None, derandomize=True)
+settings.load_profile("suite")

@@ -1,0 +1,54 @@
+"""`ToyReach` for learning: hand-made experts, and the task with the goal open to the robot."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from rigid.policies.gaussian import GaussianParameters
+from rigid.policies.networks import init_mlp, init_normaliser
+from rigid.tasks.protocol import AgentSpec
+from tests.toys import SPEED, ToyReach, ToyWorld
+
+
+class OpenReach(ToyReach):
+    """The robot sees the goal as well, as its last number."""
+
+    def __init__(self, **parameters):
+        super().__init__(**parameters)
+        self.robot = AgentSpec(3, 1, ("robot", "hand", "goal"))
+
+    def make_world(self, batch, *, threads=0):
+        del threads
+        return OpenWorld(self, batch)
+
+
+class OpenWorld(ToyWorld):
+    """B episodes of `OpenReach`."""
+
+    def _look(self, reward):
+        step = super()._look(reward)
+        goal = step.features[:, 1:]
+        return step._replace(robot_observation=np.concatenate([step.robot_observation, goal], 1))
+
+
+def goer(point: int, *, std=0.2, hidden=(16,)) -> GaussianParameters:
+    """Moves what it sees at place `point` to the goal, which it sees last, at full speed.
+
+    Its first hidden unit does the work; the others are there to learn with.
+    """
+    network = init_mlp(jax.random.key(0), (3, *hidden, 1), last_scale=0.0)
+    gaze = jnp.zeros(3).at[point].set(-1.0).at[2].set(1.0)
+    first = network[0]["w"].at[:, 0].set(0.5 * gaze)
+    last = network[1]["w"].at[0, 0].set(2 / SPEED)
+    network = [network[0] | {"w": first}, network[1] | {"w": last}]
+    return GaussianParameters(network, jnp.full(1, np.log(std), jnp.float32), init_normaliser(3))
+
+
+def bitwise_equal(one, other) -> bool:
+    """Whether two pytrees hold the same numbers to the last bit."""
+    return jax.tree.structure(one) == jax.tree.structure(other) and all(
+        np.asarray(a).tobytes() == np.asarray(b).tobytes()
+        for a, b in zip(jax.tree.leaves(one), jax.tree.leaves(other), strict=True)
+    )

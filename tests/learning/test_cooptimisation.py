@@ -1,0 +1,84 @@
+"""Co-optimisation on a toy task: the pair gets better, and may stop and go on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rigid.learning import cooptimisation
+from rigid.learning.cooptimisation import CoOptimisationSettings, co_optimise, noise_at, start_pair
+from rigid.learning.ppo import PPOSettings
+from tests.learning.reach import OpenReach, bitwise_equal
+
+TASK = OpenReach()
+SETTINGS = CoOptimisationSettings(
+    iterations=25,
+    episodes=48,
+    hidden=(16,),
+    ppo=PPOSettings(learning_rate=5e-3, minibatch=120, epochs=4),
+)
+STOP = 3
+
+
+@pytest.fixture(scope="module")
+def trained():
+    """The pair after every iteration, and what was reported."""
+    history = []
+    final = co_optimise(TASK, SETTINGS, seed=0, report=lambda *seen: history.append(seen))
+    return final, [progress for progress, _ in history], [pair for _, pair in history]
+
+
+def test_a_pair_learns_to_help(trained):
+    """Doing nothing returns -10, the best pair about -2."""
+    _, progress, _ = trained
+    assert progress[0].mean_return < -8
+    assert progress[-1].mean_return > -5
+    assert progress[-1].success > progress[0].success
+
+
+def test_progress_is_reported_after_every_iteration(trained):
+    final, progress, pairs = trained
+    assert [seen.iteration for seen in progress] == list(range(SETTINGS.iterations))
+    assert [seen.noise for seen in progress] == [
+        noise_at(SETTINGS, i) for i in range(SETTINGS.iterations)
+    ]
+    assert bitwise_equal(final, pairs[-1])
+
+
+def test_stopping_and_going_on_changes_nothing(trained):
+    final, _, pairs = trained
+    behind = SETTINGS.iterations - STOP
+    assert bitwise_equal(
+        co_optimise(TASK, SETTINGS, seed=0, start=(pairs[behind - 1], behind)), final
+    )
+
+
+def test_another_seed_is_another_pair():
+    one, other = (start_pair(TASK, SETTINGS, seed) for seed in (0, 1))
+    assert not bitwise_equal(one, other)
+    assert not bitwise_equal(one.robot.policy.network, one.human.policy.network)
+
+
+def test_the_noise_that_stays_is_the_last_one(trained):
+    final, _, _ = trained
+    for learner in final:
+        np.testing.assert_allclose(np.exp(learner.policy.log_std), SETTINGS.std[1], rtol=1e-5)
+
+
+def test_noise_falls_to_its_last_value_and_stays():
+    settings = CoOptimisationSettings(iterations=100, std=(0.8, 0.2), anneal=0.5)
+    levels = [noise_at(settings, i) for i in (0, 25, 50, 75, 99)]
+    assert levels == pytest.approx([0.8, 0.4, 0.2, 0.2, 0.2])
+
+
+def test_critics_see_what_both_see():
+    pair = start_pair(TASK, SETTINGS, 0)
+    seen = TASK.robot.observation_size + TASK.human.observation_size
+    for learner in pair:
+        assert learner.critic_normaliser.mean.shape == (seen,)
+
+
+def test_every_iteration_uses_the_same_compiled_update(trained):
+    """Robot and human have the same sizes here, so one compilation serves both."""
+    assert trained
+    assert cooptimisation._update._cache_size() == 1

@@ -1,0 +1,156 @@
+"""Personalisation on a toy task whose goal must be read from the hand's motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import jax
+import numpy as np
+import pytest
+
+from rigid.learning import personalisation
+from rigid.learning.personalisation import (
+    PersonalisationSettings,
+    history_windows,
+    noise_at,
+    personalise,
+    start_robot,
+)
+from rigid.learning.ppo import PPOSettings
+from rigid.learning.rollout import play, policy_actor
+from rigid.policies.gaussian import GaussianPolicy, stack_history
+from tests.learning.reach import OpenReach, bitwise_equal, goer
+from tests.toys import Pointer, ToyReach
+
+TASK, PRIVILEGED = ToyReach(), OpenReach()
+EXPERT = goer(0)
+SETTINGS = PersonalisationSettings(
+    iterations=25,
+    episodes=48,
+    hidden=(16,),
+    ppo=PPOSettings(
+        learning_rate=1e-2,
+        minibatch=120,
+        epochs=4,
+        cloning_coefficient=1.0,
+        policy_coefficient=0.1,
+    ),
+)
+STOP = 3
+
+
+@dataclass
+class Constant:
+    """Always the same action."""
+
+    action: float
+    observation_size: int = 3
+    action_size: int = 1
+
+    def initial_state(self, batch):
+        del batch
+        return ()
+
+    def act(self, observation, state, rng):
+        del rng
+        return np.full((len(observation), 1), self.action), state
+
+
+@pytest.fixture(scope="module")
+def trained():
+    history = []
+    robot = personalise(
+        TASK,
+        PRIVILEGED,
+        EXPERT,
+        [Pointer()],
+        SETTINGS,
+        seed=0,
+        report=lambda progress, learner: history.append((progress, learner)),
+    )
+    return robot, history
+
+
+def mean_return(task, robot):
+    seeds, rng = np.arange(200), np.random.default_rng(0)
+    actors = policy_actor(robot, 200, None), policy_actor(Pointer(), 200, rng)
+    return play(task, task.make_world(200), seeds, *actors).returns.mean()
+
+
+def test_the_student_nearly_returns_what_the_expert_does(trained):
+    """The expert starts at once; the student must first see the hand move. Blind: -10."""
+    expert = mean_return(PRIVILEGED, GaussianPolicy(EXPERT))
+    student = mean_return(TASK, GaussianPolicy(trained[0].policy))
+    assert expert > -2.5
+    assert expert - 2.0 < student < expert
+
+
+def test_the_student_does_not_see_what_is_hidden(trained):
+    """Its network takes robot and hand; before the hand moves it cannot tell the goals apart."""
+    student = GaussianPolicy(trained[0].policy)
+    assert student.observation_size == TASK.robot.observation_size == 2
+    assert PRIVILEGED.robot.observation_size == 3
+
+
+def test_the_rollout_hides_the_goal_from_the_student_alone():
+    learner = start_robot(TASK, PRIVILEGED, SETTINGS, 0)
+    world, rng = PRIVILEGED.make_world(SETTINGS.episodes), np.random.default_rng(0)
+    episodes = personalisation._play(
+        PRIVILEGED, world, learner, [Pointer()], settings=SETTINGS, rng=rng
+    )
+    rollout = personalisation._rollout(episodes, EXPERT, 2, SETTINGS)
+    seen, goal = episodes.robot_observation, episodes.features[..., 1]
+    np.testing.assert_array_equal(rollout.observation, seen[..., :2])
+    np.testing.assert_array_equal(rollout.critic_observation[..., 2], goal)
+    clipped = np.clip(GaussianPolicy(EXPERT).act(seen.reshape(-1, 3), (), None)[0], -1, 1)
+    np.testing.assert_allclose(rollout.expert_action.reshape(-1, 1), clipped, atol=1e-6)
+
+
+def test_stopping_and_going_on_changes_nothing(trained):
+    robot, history = trained
+    behind = SETTINGS.iterations - STOP
+    resumed = personalise(
+        TASK,
+        PRIVILEGED,
+        EXPERT,
+        [Pointer()],
+        SETTINGS,
+        seed=0,
+        start=(history[behind - 1][1], behind),
+    )
+    assert bitwise_equal(resumed, robot)
+
+
+def test_every_iteration_uses_the_same_compiled_update(trained):
+    assert trained
+    assert personalisation._update._cache_size() == 1
+
+
+def test_humans_share_the_episodes_evenly():
+    learner = start_robot(TASK, PRIVILEGED, SETTINGS, 0)
+    humans = [Constant(action) for action in (-1.0, 0.0, 1.0)]
+    world, rng = PRIVILEGED.make_world(SETTINGS.episodes), np.random.default_rng(0)
+    episodes = personalisation._play(PRIVILEGED, world, learner, humans, settings=SETTINGS, rng=rng)
+    np.testing.assert_array_equal(
+        episodes.human_action[..., 0], np.tile(np.repeat([-1, 0, 1], 16), (TASK.horizon, 1))
+    )
+
+
+def test_windows_of_history_are_those_the_policy_acts_on():
+    observation = np.random.default_rng(0).standard_normal((5, 4, 2)).astype(np.float32)
+    windows, past = history_windows(observation, 3), np.full((4, 4), np.nan, np.float32)
+    for seen, window in zip(observation, windows, strict=True):
+        expected = stack_history(seen, past)
+        np.testing.assert_array_equal(window, expected)
+        past = expected[:, :-2]
+
+
+def test_noise_falls_geometrically_from_the_first_to_the_last_iteration():
+    settings = PersonalisationSettings(iterations=3, std=(0.4, 0.1))
+    assert [noise_at(settings, i) for i in range(3)] == pytest.approx([0.4, 0.2, 0.1])
+
+
+def test_another_seed_is_another_robot():
+    one, other = (start_robot(TASK, PRIVILEGED, SETTINGS, seed) for seed in (0, 1))
+    assert not bitwise_equal(one, other)
+    assert jax.tree.structure(one) == jax.tree.structure(other)

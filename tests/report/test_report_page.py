@@ -1,0 +1,296 @@
+"""The report in a browser: what a reader sees, clicks, types, prints."""
+
+from __future__ import annotations
+
+import copy
+import csv
+import re
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+from rigid.report import build_report
+
+HOSTILE = '</script><img src=x onerror="window.hacked=1">\'"\u2028{{7*7}}\ud800'
+
+COLOURS_DRAWN = """canvas => {
+  const copy = document.createElement("canvas");
+  copy.width = copy.height = 96;
+  const context = copy.getContext("2d");
+  context.drawImage(canvas, 0, 0, 96, 96);
+  const data = context.getImageData(0, 0, 96, 96).data;
+  return new Set(new Uint32Array(data.buffer)).size;
+}"""
+
+
+TWO_FRAMES = "new Promise(go => requestAnimationFrame(() => requestAnimationFrame(go)))"
+
+
+def mark(page, point_id):
+    return page.locator(f'.frontier-chart [data-id="{point_id}"]')
+
+
+def shown(page):
+    return page.locator(".details").get_attribute("data-point")
+
+
+def picture(page, pane):
+    return page.locator(f".pane.{pane} canvas").evaluate("canvas => canvas.toDataURL()")
+
+
+def worst_natural(payload):
+    natural = [p for p in payload["frontier"]["points"] if p["naturalness"] >= 0.8]
+    return max(natural, key=lambda p: p["adversarialness"])["id"]
+
+
+def test_headline_numbers_are_those_of_the_payload(page, payload):
+    frontier = payload["frontier"]
+    for name, value, interval in (
+        ("worst", frontier["worst_at"]["0.9"], frontier["worst_at_interval"]["0.9"]),
+        ("auc-natural", frontier["auc_natural"], frontier["auc_natural_interval"]),
+        ("auc", frontier["auc"], frontier["auc_interval"]),
+    ):
+        box = page.locator(f"#{name}")
+        assert box.locator(".figure-value").inner_text() == f"{value:.2f}"
+        low, high = interval
+        assert box.locator(".interval").inner_text() == f"[{low:.2f}, {high:.2f}]"
+
+
+def test_head_names_robot_task_and_canonical_source(page):
+    assert page.locator("h1").inner_text() == "builtin:vanilla on itch-scratching"
+    facts = page.locator(".facts").inner_text()
+    assert re.search(r"canonical play\s+synthetic, n = 200", facts)
+    assert page.locator(".stamp").inner_text() == "synthetic sample: not a measurement"
+
+
+def test_page_opens_on_the_worst_natural_human(page, payload):
+    assert shown(page) == worst_natural(payload)
+
+
+def test_every_human_is_on_the_chart(page, payload):
+    frontier = sum(p["on_frontier"] for p in payload["frontier"]["points"])
+    assert page.locator(".frontier-chart .mark.frontier").count() == frontier
+    assert page.locator(".frontier-chart .mark.dominated").count() == 36 - frontier
+    assert page.locator(".frontier-chart .mark.passive").count() == 1
+    assert page.locator(".frontier-chart .mark.canonical").count() == 1
+
+
+def test_click_on_a_mark_shows_its_numbers(page, payload):
+    point = payload["frontier"]["points"][0]
+    mark(page, point["id"]).dispatch_event("click")
+    assert shown(page) == point["id"]
+    details = page.locator(".details").inner_text()
+    assert f"{point['adversarialness']:.2f}" in details
+    assert f"{point['naturalness_all']['window16_k16']:.2f}" in details
+    assert page.url.endswith(f"#human={point['id']}")
+
+
+def test_human_without_stored_motion_says_so(page, payload):
+    mark(page, payload["frontier"]["points"][0]["id"]).dispatch_event("click")
+    assert page.get_by_text("No episode of this human was stored.").is_visible()
+
+
+def test_arrow_keys_walk_by_naturalness_and_enter_chooses(page, payload):
+    by_naturalness = sorted(
+        [*payload["frontier"]["points"], {"id": "passive", **payload["passive"]}],
+        key=lambda p: (p["naturalness"], p["adversarialness"]),
+    )
+    first, third = by_naturalness[0]["id"], by_naturalness[2]["id"]
+    mark(page, first).focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("document.activeElement.dataset.id") == third
+    assert page.locator(".frontier-chart .tooltip").is_visible()
+    page.keyboard.press("Enter")
+    assert shown(page) == third
+    assert mark(page, third).get_attribute("aria-pressed") == "true"
+
+
+def test_chart_is_one_tab_stop(page):
+    assert page.locator('.frontier-chart .mark[tabindex="0"]').count() == 1
+
+
+def test_both_views_are_drawn_and_move_together(page, payload):
+    mark(page, worst_natural(payload)).dispatch_event("click")
+    for pane in ("attack", "natural"):
+        assert page.locator(f".pane.{pane} canvas").evaluate(COLOURS_DRAWN) > 50
+    before = picture(page, "attack"), picture(page, "natural")
+    page.get_by_label("Time").fill("3")
+    page.evaluate(TWO_FRAMES)
+    assert picture(page, "attack") != before[0]
+    assert picture(page, "natural") != before[1]
+
+
+def test_turning_one_view_turns_the_other(page, payload):
+    mark(page, worst_natural(payload)).dispatch_event("click")
+    page.evaluate(TWO_FRAMES)
+    before = picture(page, "natural")
+    page.locator(".pane.attack canvas").focus()
+    page.keyboard.press("ArrowLeft")
+    page.evaluate(TWO_FRAMES)
+    turned = picture(page, "natural")
+    assert turned != before
+    page.get_by_role("button", name="reset view").click()
+    page.evaluate(TWO_FRAMES)
+    assert picture(page, "natural") != turned
+
+
+def test_overlay_lays_the_canonical_human_over_the_chosen_one(page, payload):
+    mark(page, worst_natural(payload)).dispatch_event("click")
+    page.evaluate(TWO_FRAMES)
+    before = picture(page, "attack")
+    overlay = page.get_by_role("button", name="overlay")
+    overlay.click()
+    page.evaluate(TWO_FRAMES)
+    assert overlay.get_attribute("aria-pressed") == "true"
+    assert picture(page, "attack") != before
+    overlay.click()
+
+
+def test_median_episode_is_another_than_the_worst(page, payload):
+    chosen = worst_natural(payload)
+    mark(page, chosen).dispatch_event("click")
+    page.get_by_role("button", name="median").click()
+    page.get_by_label("Time").fill("60")
+    distance = payload["replays"][chosen]["median"]["distance"][60]
+    assert page.locator(".strip-value").nth(2).inner_text() == f"{100 * distance:.1f} cm"
+    page.get_by_role("button", name="worst").click()
+
+
+def test_strips_read_the_recorded_values(page, payload):
+    chosen = worst_natural(payload)
+    mark(page, chosen).dispatch_event("click")
+    page.get_by_label("Time").fill("40")
+    values = page.locator(".strip-value").all_inner_texts()
+    clip = payload["replays"][chosen]["worst"]
+    assert values[0] == f"{clip['force_unwanted'][40]:.1f} N"
+    assert values[2] == f"{100 * clip['distance'][40]:.1f} cm"
+    assert values[3] == f"{clip['counted'][40]:.0f}"
+
+
+def test_play_goes_on_until_pause(page, payload):
+    mark(page, worst_natural(payload)).dispatch_event("click")
+    page.get_by_label("Time").fill("0")
+    page.get_by_role("button", name="Play").click()
+    expect(page.locator(".time")).not_to_have_text("0.0 s")
+    page.get_by_role("button", name="Pause").click()
+    stopped = page.locator(".time").inner_text()
+    page.evaluate(TWO_FRAMES)
+    assert page.locator(".time").inner_text() == stopped
+
+
+def test_forces_of_the_papers_servo_are_marked_not_physical(page):
+    assert "not physical" in page.locator(".details").inner_text()
+
+
+def test_table_sorts_both_ways(page):
+    def column():
+        return page.locator("table.points tbody td:nth-child(6)").all_inner_texts()
+
+    head = page.get_by_role("columnheader", name="adversarialness")
+    head.get_by_role("button").click()
+    assert column() == sorted(column(), reverse=True)
+    assert head.get_attribute("aria-sort") == "descending"
+    head.get_by_role("button").click()
+    assert column() == sorted(column())
+
+
+def test_csv_holds_every_point_at_full_precision(page, payload):
+    with page.expect_download() as event:
+        page.get_by_role("button", name="Download CSV").click()
+    rows = list(csv.DictReader(event.value.path().read_text(encoding="utf-8").splitlines()))
+    points = {p["id"]: p for p in payload["frontier"]["points"]}
+    assert {row["id"] for row in rows} == set(points)
+    for row in rows:
+        assert float(row["naturalness"]) == points[row["id"]]["naturalness"]
+        assert float(row["outcomes.helped"]) == points[row["id"]]["outcomes"]["helped"]
+
+
+def test_learning_curves_follow_the_chosen_human(page, payload):
+    point = payload["frontier"]["points"][0]["id"]
+    mark(page, point).dispatch_event("click")
+    last = payload["learning"][point]["return"][-1]
+    reading = page.locator(".panel").first.locator(".reading").inner_text()
+    assert reading.replace("\u2212", "-") == f"{last:.0f}"
+
+
+def test_every_figure_says_what_it_does_not_show(page):
+    captions = page.locator("figcaption .caveat").all_inner_texts()
+    assert len(captions) == page.locator("figure").count() + 1  # The table has one as well.
+    assert all(captions)
+    assert "worst quarter of canonical behaviour" in captions[0]
+
+
+@pytest.fixture(scope="module")
+def hostile_report(payload, tmp_path_factory):
+    hostile = copy.deepcopy({**payload, "learning": {}})
+    frontier = hostile["frontier"]
+    frontier |= {"robot": HOSTILE, "task": HOSTILE, "preset": HOSTILE, "range_source": HOSTILE}
+    frontier["canonical"]["source"] = HOSTILE
+    old = worst_natural(payload)
+    point = next(p for p in frontier["points"] if p["id"] == old)
+    point |= {"id": HOSTILE, "naturalness_all": {HOSTILE: 0.5}, HOSTILE: HOSTILE}
+    frontier["points"].append({"id": {"not": "text"}, "lambda": [], "naturalness": "0.5"})
+    motion = hostile["replays"].pop(old)
+    motion["worst"] |= {"outcome": HOSTILE, "contacts": [HOSTILE, [None] * 6]}
+    hostile["replays"][HOSTILE] = motion
+    hostile["settings"] = {HOSTILE: {HOSTILE: [HOSTILE]}, "__proto__": {"servo": "datasheet"}}
+    hostile["stamp"] = HOSTILE
+    return build_report(hostile, tmp_path_factory.mktemp("hostile") / "report.html")
+
+
+def test_hostile_texts_are_shown_and_never_run(visit, hostile_report):
+    with visit(hostile_report) as page:
+        assert page.evaluate("window.hacked") is None
+        assert page.locator("img").count() == 0
+        assert "<img src=x" in page.locator("h1").inner_text()
+        assert "<img src=x" in page.locator(".pane.attack .pane-name").inner_text()
+        assert "<img src=x" in page.locator(".details h2").inner_text()
+        page.get_by_text("Settings of this run").click()
+        assert "<img src=x" in page.locator(".tree").first.inner_text()
+        assert page.locator("table.points tbody tr").count() == 37
+
+
+def test_no_viewport_scrolls_sideways(visit, report):
+    with visit(report, viewport={"width": 390, "height": 800}, has_touch=True) as page:
+        for width in (390, 320, 480, 768):
+            page.set_viewport_size({"width": width, "height": 800})
+            page.evaluate(TWO_FRAMES)
+            assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def brightness(page):
+    color = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    return np.mean([int(channel) for channel in re.findall(r"\d+", color)[:3]])
+
+
+def test_theme_follows_the_system_and_the_switch_and_paper_is_light(visit, report):
+    with visit(report, color_scheme="dark") as page:
+        assert brightness(page) < 60
+        page.get_by_role("button", name="Light theme").click()
+        assert brightness(page) > 200
+        page.get_by_role("button", name="Dark theme").click()
+        assert brightness(page) < 60
+        page.emulate_media(media="print")
+        assert brightness(page) > 200
+        assert not page.locator(".transport-options").is_visible()
+        assert page.locator("details:not([open])").count() == 0
+
+
+def test_one_seed_says_that_it_has_no_interval_and_absent_replays_are_said(
+    visit, sample_payload, tmp_path
+):
+    single = sample_payload(seeds=1, replays=0) | {"replays": None, "scene": None, "passive": None}
+    with visit(build_report(single, tmp_path / "report.html")) as page:
+        texts = page.locator(".headline .interval").all_inner_texts()
+        assert texts[:3] == ["one seed: no interval"] * 3
+        assert page.get_by_text("Replays were not stored with this frontier").is_visible()
+        assert page.locator("canvas").count() == 0
+
+
+def test_frontier_without_points_is_shown_as_unknown(visit, tmp_path):
+    empty = {"frontier": {"schema": 1, "points": [], "auc": np.nan}, "settings": {}}
+    with visit(build_report(empty, tmp_path / "report.html")) as page:
+        assert page.locator("#auc .figure-value").inner_text() == "—"
+        assert page.get_by_text("No human was measured.").is_visible()

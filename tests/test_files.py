@@ -1,0 +1,100 @@
+"""Files that are whole or absent, and headers that say what is wrong with them."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from pydantic import BaseModel
+
+from rigid.errors import UserError
+from rigid.files import (
+    first_difference,
+    json_text,
+    parse_header,
+    read_bytes,
+    write_atomically,
+)
+
+
+class Header(BaseModel):
+    format: int
+    names: tuple[str, ...]
+
+
+def parse(value):
+    text = value if isinstance(value, str) else json.dumps(value)
+    return parse_header(Header, text, version=2, where="file.x", cure="make it again")
+
+
+def test_a_write_replaces_the_old_file_and_leaves_nothing_else(tmp_path):
+    path = tmp_path / "file"
+    write_atomically(path, b"old")
+    write_atomically(path, b"new")
+    assert path.read_bytes() == b"new"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_write_that_fails_leaves_nothing_behind(tmp_path):
+    taken = tmp_path / "taken"
+    taken.mkdir()
+    with pytest.raises(IsADirectoryError):
+        write_atomically(taken, b"data")
+    assert list(tmp_path.iterdir()) == [taken]
+
+
+def test_others_may_read_what_was_written(tmp_path):
+    write_atomically(tmp_path / "ours", b"")
+    (tmp_path / "theirs").write_bytes(b"")
+    assert (tmp_path / "ours").stat().st_mode == (tmp_path / "theirs").stat().st_mode
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [("absent", "absent does not exist: look again"), ("", r"cannot be read \(Is a directory\)")],
+)
+def test_an_unreadable_file_is_named_with_the_cure(tmp_path, name, message):
+    with pytest.raises(UserError, match=message):
+        read_bytes(tmp_path / name, cure="look again")
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        pytest.param("{", "file.x: the header: Invalid JSON.*: make it again", id="no-json"),
+        pytest.param({}, "file.x: format: Field required: make it again", id="no-version"),
+        pytest.param({"format": 3}, "version 3, but this RIGID reads up to 2: install", id="newer"),
+        pytest.param({"format": 0}, "unknown format version 0: make it again", id="no-such"),
+        pytest.param({"format": 2, "names": ["a", 1]}, r"file.x: names\.1: .*string", id="type"),
+    ],
+)
+def test_a_bad_header_is_refused_with_place_and_cure(value, message):
+    with pytest.raises(UserError, match=message):
+        parse(value)
+
+
+def test_a_header_may_say_more_than_is_read():
+    assert parse({"format": 2, "names": ["a"], "comment": "more"}).names == ("a",)
+
+
+def test_equal_values_give_equal_text():
+    assert json_text({"b": (1, 2), "a": 0.5}) == json_text({"a": 0.5, "b": [1, 2]})
+
+
+def test_json_knows_no_nan():
+    with pytest.raises(ValueError, match="JSON compliant"):
+        json_text({"a": float("nan")})
+
+
+@pytest.mark.parametrize(
+    ("mine", "theirs", "difference"),
+    [
+        pytest.param({"a": (1, 2)}, {"a": [1, 2]}, None, id="tuple-and-list-are-equal"),
+        pytest.param({"a": 1, "b": 2}, {"a": 1}, None, id="only-shared-entries-count"),
+        pytest.param({"p": {"x": 1}}, {"p": {"x": 2}}, ("p.x", 1, 2), id="nested"),
+        pytest.param({"p": {"x": 1}}, {"p": None}, ("p", {"x": 1}, None), id="mapping-and-none"),
+        pytest.param({"b": 1, "a": 1}, {"b": 2, "a": 2}, ("a", 1, 2), id="first-by-name"),
+    ],
+)
+def test_the_first_difference_is_named_with_both_values(mine, theirs, difference):
+    assert first_difference(mine, theirs) == difference

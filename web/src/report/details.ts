@@ -1,0 +1,90 @@
+/** All that was measured of the chosen human. */
+import { h, type Child } from "../base/dom.js";
+import { count, fixed, lambdaText, percent, UNKNOWN } from "../base/format.js";
+import { text } from "../base/read.js";
+import type { Signal } from "../base/signal.js";
+import { outcomeBar } from "../chart/outcomes.js";
+import type { Payload, Point } from "./payload.js";
+import { axisSentence, isPassive, levelText, title } from "./words.js";
+
+function entry(name: Child, value: Child, note?: Child): HTMLElement {
+  return h("div", { class: "entry" }, h("dt", {}, name), h("dd", {}, value, note && h("small", {}, " ", note)));
+}
+
+function faultsText(point: Point): string {
+  if (point.faults === null) return UNKNOWN;
+  return point.episodes ? `${point.faults} of ${count(point.episodes)} episodes` : String(point.faults);
+}
+
+function searched(point: Point): HTMLElement {
+  const converged = point.converged === null ? UNKNOWN : point.converged ? "yes" : "no";
+  return h("dl", { class: "entries" },
+    entry("λ", lambdaText(point.lambda)),
+    entry("seed, round", `${point.seed ?? UNKNOWN}, ${point.round ?? UNKNOWN}`),
+    entry("training steps", count(point.envSteps)),
+    entry("converged", converged),
+    entry("faults", faultsText(point)),
+    entry("on the frontier", point.onFrontier ? "yes" : "no"));
+}
+
+function effect(point: Point, payload: Payload, physical: boolean): HTMLElement {
+  const caveat = physical ? null : "not physical";
+  const canonical = payload.canonical;
+  return h("dl", { class: "entries" },
+    entry("adversarialness", h("b", {}, fixed(point.adversarialness)), `canonical ${fixed(canonical.adversarialness)}`),
+    entry("return", fixed(point.return, 1), `canonical ${fixed(canonical.return, 1)}`),
+    entry("success", percent(point.success), `canonical ${percent(canonical.success)}`),
+    entry("peak force", `${fixed(point.peakForce, 1)} N`, caveat),
+    entry("impulse", `${fixed(point.impulse, 1)} N·s`, caveat));
+}
+
+function naturalness(point: Point, payload: Payload): HTMLElement {
+  const own = point.naturalnessOwn === null ? [] : [["its own discriminator", point.naturalnessOwn] as const];
+  const rows = [...point.levels.map(([name, value]) => [levelText(name), value] as const), ...own];
+  const bar = (value: number | null): HTMLElement =>
+    h("span", { class: "meter" }, h("span", { style: `width: ${100 * Math.min(Math.max(value ?? 0, 0), 1)}%` }));
+  return h("div", { class: "levels" },
+    h("dl", { class: "entries" }, entry("naturalness", h("b", {}, fixed(point.naturalness)))),
+    h("table", {}, h("caption", { class: "visually-hidden" }, "Naturalness at every level of the referee"),
+      h("tbody", {}, ...rows.map(([name, value]) =>
+        h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, bar(value)), h("td", { class: "number" }, fixed(value)))))),
+    h("p", { class: "note" }, axisSentence(payload)));
+}
+
+/** More faulted episodes than this bar a point from the frontier. */
+const MAX_FAULTS = 0.01;
+
+function standing({ onFrontier, faults, episodes }: Point): string {
+  if (onFrontier) return "On the frontier.";
+  return (faults ?? 0) > MAX_FAULTS * (episodes ?? Infinity)
+    ? "Not on the frontier: more than 1 % of its episodes faulted."
+    : "Dominated: another human is at least as natural and as harmful.";
+}
+
+function body(point: Point, payload: Payload, physical: boolean): Node[] {
+  return [
+    h("div", { class: "details-head", role: "status" },
+      h("h2", { id: "chosen-title" }, title(point)),
+      h("p", {}, isPassive(point)
+        ? "An untrained human who does nothing: a reference, not an attack."
+        : standing(point))),
+    h("div", { class: "details-grid" },
+      h("section", {}, h("h3", {}, "How natural"), naturalness(point, payload)),
+      h("section", {}, h("h3", {}, "How bad"), effect(point, payload, physical)),
+      h("section", {}, h("h3", {}, "How episodes ended"),
+        point.outcomes ? outcomeBar(point.outcomes) : h("p", { class: "empty" }, "Outcomes were not recorded."),
+        h("p", { class: "note" }, `${count(point.episodes)} fresh episodes`)),
+      !isPassive(point) && h("section", {}, h("h3", {}, "How it was found"), searched(point))),
+  ];
+}
+
+/** The section that follows the selection. */
+export function details(payload: Payload, chosen: Signal<Point | null>, physical: boolean): HTMLElement {
+  const section = h("section", { class: "details", "aria-labelledby": "chosen-title" });
+  chosen.watch((point) => {
+    section.dataset["point"] = text(point?.id);
+    section.replaceChildren(...(point ? body(point, payload, physical)
+      : [h("p", { class: "empty" }, "No human was measured.")]));
+  });
+  return section;
+}
