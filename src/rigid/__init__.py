@@ -6,6 +6,7 @@ This module is the whole public interface; everything is imported when it is fir
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -54,6 +55,14 @@ _HOMES = {
     "measure": "rigid.api",
     "save_episodes": "rigid.data.episodes",
 }
+
+
+if "gymnasium" in sys.modules:
+    # Gymnasium has no entry points for environments. Importing it here would cost every command a
+    # third of a second, so its users get the registration: they import it before they make one.
+    from rigid.tasks.views.gymnasium import register
+
+    register()
 
 
 def __getattr__(name: str) -> Any:

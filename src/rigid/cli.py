@@ -10,7 +10,7 @@ import inspect
 import operator
 import sys
 from collections.abc import Sequence
-from typing import Annotated, Any, Protocol
+from typing import Annotated, Any, Protocol, runtime_checkable
 
 import tyro
 
@@ -22,7 +22,7 @@ from rigid.errors import UserError
 INTERRUPTED = 130
 
 
-
+@runtime_checkable
 class _Runs(Protocol):
     def run(self) -> int: ...
 
@@ -50,7 +50,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         tyro.conf.FlagCreatePairsOff,
     )
     given = list(sys.argv[1:] if arguments is None else arguments)
-    kinds = _kinds(with_examples=given[:1] != ["--help"])
+    kinds = _kinds(with_examples=given[:1] not in (["--help"], ["-h"]))
     command: _Runs = tyro.cli(kinds, args=given, prog="rigid", description=__doc__, config=config)
     try:
         return command.run()

@@ -13,7 +13,7 @@ import pytest
 
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier
-from tests.compute.tiny import start_rigid, without_times
+from tests.compute.tiny import Notes, start_rigid, without_times
 
 PATIENCE = 300.0
 """Seconds until a stage counts as hung; a shared machine may be slow."""
@@ -84,23 +84,6 @@ def test_settings_of_a_killed_run_keep_the_command_that_began_it(disturbed):
     assert "frontier --task toy-reach" in settings["provenance"]["command"]
 
 
-class Halt:
-    """A listener that interrupts as soon as a checkpoint has been written."""
-
-    def __init__(self, checkpoint: Path):
-        self._checkpoint = checkpoint
-
-    def begin(self, env_steps, seconds):
-        pass
-
-    def advance(self, env_steps):
-        if self._checkpoint.exists():
-            raise KeyboardInterrupt
-
-    def say(self, text):
-        pass
-
-
 @pytest.fixture
 def halted(single_copy, measure):
     """A run that stopped in its second round, one iteration after a checkpoint."""
@@ -108,7 +91,7 @@ def halted(single_copy, measure):
         path.unlink()
     checkpoint = single_copy / "groups" / "s0-r2.safetensors"
     with pytest.raises(KeyboardInterrupt):
-        measure(single_copy, seeds=[0], listener=Halt(checkpoint))
+        measure(single_copy, seeds=[0], listener=Notes(stop=checkpoint.exists))
     return checkpoint
 
 

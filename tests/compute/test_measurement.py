@@ -16,7 +16,7 @@ from rigid.errors import UserError
 from rigid.frontier.result import load_frontier
 from rigid.policies.native import load_native, save_policy
 from tests.compute.schema import FrontierFile
-from tests.compute.tiny import TINY, FilmedReach, Impatient, Notes, without_times
+from tests.compute.tiny import TINY, FilmedReach, Notes, without_times
 from tests.toys import untrained
 
 IDS = [f"s{seed}-{member}" for seed in (0, 1) for member in ("r1-l1", "r1-l2", "r2-l1")]
@@ -127,7 +127,7 @@ def test_other_settings_are_refused_with_the_first_difference(single_copy, measu
 
 def test_lambdas_that_differ_in_the_last_digit_are_other_settings(measure, tmp_path):
     with pytest.raises(KeyboardInterrupt):
-        measure(tmp_path / "run", seeds=[0], lambdas=[0.1], listener=Impatient())
+        measure(tmp_path / "run", seeds=[0], lambdas=[0.1], listener=Notes(stop=lambda: True))
     with pytest.raises(UserError, match=r"lambdas is \[0\.1\] there and \[0\.1000000001\] here"):
         measure(tmp_path / "run", seeds=[0], lambdas=[0.1000000001])
 
@@ -186,7 +186,7 @@ def test_episodes_that_lie_beside_the_robot_are_its_canonical_ones(measure, base
     episodes = record(task, *players, episodes=3, seed=5, provenance={})
     save_episodes(robot / "canonical.npz", episodes)
     with pytest.raises(KeyboardInterrupt):
-        measure(tmp_path / "run", robot=str(robot), listener=Impatient())
+        measure(tmp_path / "run", robot=str(robot), listener=Notes(stop=lambda: True))
     stored = json.loads((tmp_path / "run" / "settings.json").read_text())
     assert stored["identity"]["canonical"] == data_hash(episodes)
 

@@ -22,7 +22,7 @@ TINY = Preset(
     name="tiny",
     seeds=(0, 1),
     per_round=(2, 1),
-    iterations=20,
+    iterations=12,
     episodes=4,
     scoring_episodes=6,
     referee_episodes=5,
@@ -30,7 +30,7 @@ TINY = Preset(
     search_canonical=4,
     referee_canonical=4,
 )
-"""Two checkpoints in each of two groups for each of two seeds."""
+"""Two groups for each of two seeds, each with a checkpoint before its end."""
 
 TIMES = ("core_seconds", "wall_seconds")
 
@@ -107,31 +107,24 @@ def without_times(frontier: Frontier) -> str:
     return json.dumps(data, indent=1)
 
 
-class Impatient:
-    """A listener that interrupts before the first step of training."""
-
-    def begin(self, env_steps, seconds):
-        raise KeyboardInterrupt
-
-    def advance(self, env_steps):
-        pass
-
-    def say(self, text):
-        pass
-
-
 class Notes:
-    """A listener that remembers."""
+    """A listener that remembers, and interrupts the measurement when `stop` says so."""
 
-    def __init__(self) -> None:
-        self.planned, self.done, self.lines = 0, 0, []
+    def __init__(self, stop=lambda: False) -> None:
+        self.planned, self.done, self.lines, self._stop = 0, 0, [], stop
 
     def begin(self, env_steps, seconds):
         assert seconds > 0
         self.planned = env_steps
+        self._check()
 
     def advance(self, env_steps):
         self.done += env_steps
+        self._check()
 
     def say(self, text):
         self.lines.append(text)
+
+    def _check(self):
+        if self._stop():
+            raise KeyboardInterrupt

@@ -96,8 +96,8 @@ def test_training_reaches_the_optimal_score(offset_catch):
 
 def test_the_class_weights_put_the_boundary_where_q_is_kappa_p(offset_catch):
     kappa, network, _ = offset_catch
-    grid = np.linspace(-2, 4, 601, dtype=np.float32)
-    first_high = grid[np.argmax(np.asarray(score(network, grid[:, None])) >= 0)]
+    grid = jnp.linspace(-2, 4, 601)
+    first_high = grid[jnp.argmax(score(network, grid[:, None]) >= 0)]
     assert first_high == pytest.approx(boundary(SHIFT, kappa), abs=0.1)
 
 

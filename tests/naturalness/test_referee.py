@@ -48,8 +48,8 @@ class Judged(NamedTuple):
 
 
 def learning_rows(shift, seed=0):
-    """Rows of canonical and adversarial offsets."""
-    return tuple(offset_catch.offsets(m, 6000, [seed, i]) for i, m in enumerate((0.0, shift)))
+    """Rows of canonical and adversarial offsets, as unequal in number as they are in a run."""
+    return offset_catch.offsets(0.0, 6000, [seed, 0]), offset_catch.offsets(shift, 4500, [seed, 1])
 
 
 def judge(shift, seed=0):
@@ -136,7 +136,7 @@ def test_the_same_key_gives_the_same_referee(judged):
 def test_a_referee_keeps_its_best_look_at_the_validation_rows(judged):
     """Validation rows with the labels swapped: the first look is the best one."""
     canonical, adversary = learning_rows(2.0)
-    swapped = Rows(canonical[:4000], adversary[4000:]), Rows(adversary[:4000], canonical[4000:])
+    swapped = Rows(canonical[:4000], adversary[:2000]), Rows(adversary[:3000], canonical[:1500])
     scale = canonical_scale(canonical)
     misled = train_referee(*swapped, scale, RefereeSettings(), jax.random.key(0))
     trusted = judged[2.0].referee

@@ -6,7 +6,6 @@ Everything goes to standard error, so that `--json` leaves standard output to th
 from __future__ import annotations
 
 from types import TracebackType
-from typing import Self
 
 from rich.console import Console
 from rich.progress import (
@@ -39,7 +38,7 @@ class TerminalListener:
         )
         self._task: TaskID | None = None
 
-    def __enter__(self) -> Self:
+    def __enter__(self) -> TerminalListener:  # noqa: PYI034 - beartype cannot check Self here
         return self
 
     def __exit__(

@@ -107,8 +107,8 @@ def noise_level(iteration: Float[Array, ""], settings: DiscriminatorSettings) ->
 
 def discriminator_loss(
     network: MLP,
-    canonical: Float[Array, "b f"],
-    adversary: Float[Array, "b f"],
+    canonical: Float[Array, "n f"],
+    adversary: Float[Array, "m f"],
     settings: DiscriminatorSettings,
 ) -> tuple[Float[Array, ""], DiscriminatorHealth]:
     """Eq. 2 with class weights and a zero-centred gradient penalty on canonical samples."""

@@ -130,7 +130,7 @@ def _logit(network: MLP, rows: Float[Array, "*n f"]) -> Float[Array, "*n"]:
 
 
 def _loss(
-    network: MLP, canonical: Float[Array, "b f"], adversary: Float[Array, "b f"]
+    network: MLP, canonical: Float[Array, "n f"], adversary: Float[Array, "m f"]
 ) -> Float[Array, ""]:
     low, high = apply_mlp(network, canonical)[..., 0], apply_mlp(network, adversary)[..., 0]
     return 0.5 * (jax.nn.softplus(low).mean() + jax.nn.softplus(-high).mean())

@@ -7,11 +7,8 @@ import type { Payload } from "./payload.js";
 
 const BIBTEX = `@inproceedings{he2023rigid,
   title     = {Quantifying Assistive Robustness Via the Natural-Adversarial Frontier},
-  author    = {He, Jerry Zhi-Yang and Brown, Daniel S. and Erickson, Zackory and Dragan, Anca},
-  booktitle = {Proceedings of The 7th Conference on Robot Learning},
-  series    = {Proceedings of Machine Learning Research},
-  volume    = {229},
-  pages     = {1865--1886},
+  author    = {He, Jerry Zhi-Yang and Erickson, Zackory and Brown, Daniel S. and Dragan, Anca D.},
+  booktitle = {Conference on Robot Learning},
   year      = {2023}
 }`;
 
@@ -57,7 +54,7 @@ export function provenance(payload: Payload): HTMLElement {
       h("details", {}, h("summary", {}, "Settings of this run"),
         Object.keys(payload.settings).length ? tree(payload.settings) : h("p", { class: "empty" }, "No settings were stored."))),
     h("h2", {}, "How to cite"),
-    h("p", { class: "prose" }, "The method is that of He, Brown, Erickson and Dragan (CoRL 2023, arXiv:2310.10610). ",
+    h("p", { class: "prose" }, "The method is that of He, Erickson, Brown and Dragan (CoRL 2023). ",
       "State the robot, the preset, the seeds and the canonical source beside every number."),
     h("pre", { class: "bibtex", tabindex: 0, role: "region", "aria-label": "BibTeX entry" }, BIBTEX));
 }

@@ -35,7 +35,7 @@ _TYPES = {
 
 
 def scene(model: mujoco.MjModel) -> dict[str, Any]:
-    """Bodies and shapes as the report draws them."""
+    """Bodies, shapes and resting poses as the report draws them."""
     bodies = [model.body(i).name for i in range(model.nbody)]
     geoms = []
     for index in range(model.ngeom):
@@ -51,7 +51,10 @@ def scene(model: mujoco.MjModel) -> dict[str, Any]:
             "rgba": [round(float(x), 3) for x in geom.rgba],
             "role": _role(bodies[body]),
         })  # fmt: skip
-    return {"bodies": bodies, "geoms": geoms}
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    rest = np.concatenate([data.xpos, data.xquat], axis=1).round(5).tolist()
+    return {"bodies": bodies, "geoms": geoms, "rest": rest}
 
 
 def _role(body: str) -> str:

@@ -1,0 +1,5 @@
+"""`python -m rigid`: the same commands as `rigid`."""
+
+from rigid.cli import main
+
+main()

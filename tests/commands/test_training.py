@@ -1,0 +1,59 @@
+"""`rigid train`: which directories it fills, and which numbers it refuses."""
+
+from __future__ import annotations
+
+import pytest
+
+from rigid.commands.progress import TerminalListener
+from rigid.commands.training import show_progress
+from rigid.learning.cooptimisation import Progress
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["co-optimize", "--iterations", "0"], "--iterations is 0, but must be at least 1"),
+        (["co-optimize", "--seed=-1"], "--seed is -1, but must be at least 0"),
+        (["vanilla", "--pair", "p", "--iterations", "0"], "--iterations is 0"),
+        (["vanilla", "--pair", "p", "--memory", "0"], "--memory is 0, but must be at least 1"),
+        (["vanilla", "--pair", "p", "--episodes", "0"], "--episodes is 0"),
+        (["vanilla", "--pair", "nowhere"], "nowhere holds no human/: give a directory of `rigid"),
+        (["co-optimize", "--task", "toy-rich"], "unknown task 'toy-rich', did you mean"),
+    ],
+)
+def test_bad_input_exits_with_2_and_writes_nothing(rigid, toys, tmp_path, options, message):
+    del toys
+    task = [] if "--task" in options else ["--task", "toy-reach"]
+    code, out, err = rigid("train", *options, *task, "--out", tmp_path / "new")
+    assert (code, out) == (2, "")
+    assert message in err
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_place_that_cannot_be_written_exits_with_2(rigid, toys, tmp_path):
+    del toys
+    (tmp_path / "file").touch()
+    out = tmp_path / "file" / "pair"
+    code, _, err = rigid("train", "co-optimize", "--task", "toy-reach", "--out", out)
+    assert code == 2
+    assert "choose another place with --out" in err
+
+
+def test_progress_goes_to_standard_error(capsys):
+    with show_progress("co-optimising", 10) as report:
+        for iteration in range(10):
+            report(Progress(iteration, -3.25, 0.5, 0.1))
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "return -3.2 · success 0.50" in err
+
+
+def test_the_listener_tells_an_estimate_first_and_prints_nothing_on_standard_output(capsys):
+    with TerminalListener("toy · tiny") as listener:
+        listener.begin(2400, 150.0)
+        listener.advance(2400)
+        listener.say("[done]")
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "2,400 training steps; about 2 min" in err
+    assert "[done]" in err

@@ -1,0 +1,72 @@
+"""`frontier.json` as an object, and what is said about files that are none."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+from rigid.errors import UserError
+from rigid.frontier.result import Frontier, load_frontier, measured_points
+
+POINT = {
+    "id": "s0-r1-l1", "seed": 0, "naturalness": 0.9, "naturalness_own": None,
+    "adversarialness": 0.5, "faults": 1, "episodes": 200,
+}  # fmt: skip
+DATA = {
+    "schema": 1, "points": [POINT], "worst_at": {"0.9": 0.5}, "auc": 0.6, "auc_natural": 0.4,
+    "auc_interval": [0.5, 0.7],
+}  # fmt: skip
+
+
+def stored(directory, data) -> Frontier:
+    (directory / "frontier.json").write_text(json.dumps(data))
+    return load_frontier(directory)
+
+
+def test_a_result_offers_its_headline(tmp_path):
+    frontier = stored(tmp_path, DATA)
+    assert (frontier.auc, frontier.auc_natural) == (0.6, 0.4)
+    assert frontier.auc_interval == (0.5, 0.7)
+    assert frontier.worst_at == {"0.9": 0.5}
+    assert frontier.points == [POINT]
+
+
+def test_one_seed_has_no_interval(tmp_path):
+    assert stored(tmp_path, {**DATA, "auc_interval": None}).auc_interval is None
+
+
+def test_fields_of_later_versions_are_kept(tmp_path):
+    assert stored(tmp_path, {**DATA, "mood": "good"}).data["mood"] == "good"
+
+
+def test_a_run_without_a_result_says_how_to_finish_it(tmp_path):
+    with pytest.raises(UserError, match=r"frontier\.json does not exist: run `rigid frontier`"):
+        load_frontier(tmp_path)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "3", "{}"])
+def test_a_damaged_result_says_to_delete_it(tmp_path, text):
+    (tmp_path / "frontier.json").write_text(text)
+    with pytest.raises(UserError, match=r"frontier\.json is damaged: delete it and run"):
+        load_frontier(tmp_path)
+
+
+@pytest.mark.parametrize("data", [{**DATA, "schema": 2}, {"schema": 1}], ids=["newer", "empty"])
+def test_another_schema_is_named(tmp_path, data):
+    with pytest.raises(UserError, match=r"is not a frontier of schema 1: delete it"):
+        stored(tmp_path, data)
+
+
+def test_points_become_what_the_statistics_take():
+    (measured,) = measured_points([POINT])
+    assert (measured.id, measured.seed, measured.naturalness) == ("s0-r1-l1", 0, 0.9)
+    assert measured.faulted_share == 0.005
+    assert measured.is_sound
+
+
+def test_a_point_of_nothing_but_faults_is_not_sound():
+    (measured,) = measured_points([{**POINT, "adversarialness": None, "faults": 200}])
+    assert math.isnan(measured.adversarialness)
+    assert not measured.is_sound

@@ -1,0 +1,178 @@
+"""Recipes: what they leave on disk, and that an interrupted one ends like an undisturbed one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import jax
+import numpy as np
+import pytest
+
+from rigid.data.episodes import load_episodes
+from rigid.errors import UserError
+from rigid.learning.cooptimisation import CoOptimisationSettings
+from rigid.learning.personalisation import PersonalisationSettings
+from rigid.learning.ppo import PPOSettings
+from rigid.policies.native import load_native
+from rigid.robots.recipes import train_pair, train_vanilla
+from tests.toys import ToyReach
+
+ITERATIONS = 14
+PPO = PPOSettings(epochs=2, minibatch=40)
+PAIR = CoOptimisationSettings(iterations=ITERATIONS, episodes=8, hidden=(6,), ppo=PPO)
+VANILLA = PersonalisationSettings(
+    iterations=ITERATIONS, episodes=8, hidden=(6, 6), memory=2,
+    ppo=replace(PPO, cloning_coefficient=1.0, policy_coefficient=0.1),
+)  # fmt: skip
+
+
+class Seen:
+    """Remembers the iterations it was told of, and interrupts after one of them."""
+
+    def __init__(self, last=None):
+        self.iterations, self._last = [], last
+
+    def __call__(self, progress):
+        self.iterations.append(progress.iteration)
+        if progress.iteration == self._last:
+            raise KeyboardInterrupt
+
+
+def co_optimise(out, report=None, settings=PAIR, seed=0, task=None):
+    train_pair(task or ToyReach(), settings, seed=seed, out=out, report=report or Seen())
+    return out
+
+
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory):
+    return co_optimise(tmp_path_factory.mktemp("pair"))
+
+
+@pytest.fixture(scope="module")
+def vanilla(pair):
+    """Trains a robot for `pair`."""
+
+    def train(out, report=None, settings=VANILLA, seed=0, pair=pair):
+        train_vanilla(
+            ToyReach(), settings, pair=pair, seed=seed, out=out, canonical_episodes=5,
+            report=report or Seen(),
+        )  # fmt: skip
+        return out
+
+    return train
+
+
+@pytest.fixture(scope="module")
+def robot(vanilla, tmp_path_factory):
+    return vanilla(tmp_path_factory.mktemp("robot"))
+
+
+def names(directory):
+    return {str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file()}
+
+
+def test_a_pair_is_two_policies_of_their_agents(pair):
+    policy = {"policy.json", "policy.safetensors"}
+    assert names(pair) == {f"{agent}/{file}" for agent in ("human", "robot") for file in policy}
+    for agent in ("human", "robot"):
+        assert load_native(pair / agent).card.agent == agent
+
+
+def test_the_human_keeps_the_noise_of_the_end_of_training(pair):
+    human = load_native(pair / "human").policy
+    np.testing.assert_allclose(np.exp(human.parameters.log_std), PAIR.std[1], rtol=1e-5)
+
+
+def test_a_robot_comes_with_canonical_episodes(robot):
+    assert names(robot) == {"policy.json", "policy.safetensors", "canonical.npz"}
+    assert len(load_episodes(robot / "canonical.npz", task=ToyReach())) == 5
+    assert load_native(robot).policy.memory == VANILLA.memory
+
+
+def test_every_policy_says_how_it_was_made(pair, robot):
+    human = load_native(pair / "human").card
+    assert human.provenance["recipe"] == "co-optimize"
+    assert human.provenance["seed"] == 0
+    assert human.provenance["settings"]["iterations"] == ITERATIONS
+    made_by = load_native(robot).card.provenance
+    assert made_by["recipe"] == "vanilla"
+    assert made_by["human"] == human.sha256
+    assert made_by["expert"] == load_native(pair / "robot").card.sha256
+
+
+def same(one, other):
+    mine, theirs = (load_native(path).policy.parameters for path in (one, other))
+    return all(jax.tree.leaves(jax.tree.map(np.array_equal, mine, theirs)))
+
+
+def test_an_interrupted_pair_ends_like_an_undisturbed_one(pair, tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        co_optimise(tmp_path, Seen(last=11))
+    seen = Seen()
+    co_optimise(tmp_path, seen)
+    assert seen.iterations == [10, 11, 12, 13]  # From the last checkpoint on.
+    assert names(tmp_path) == names(pair)
+    for agent in ("human", "robot"):
+        assert same(tmp_path / agent, pair / agent)
+
+
+def test_an_interrupted_robot_ends_like_an_undisturbed_one(vanilla, robot, tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        vanilla(tmp_path, Seen(last=11))
+    assert names(tmp_path) == {"checkpoint.safetensors"}
+    seen = Seen()
+    vanilla(tmp_path, seen)
+    assert seen.iterations == [10, 11, 12, 13]
+    assert names(tmp_path) == names(robot)
+    assert same(tmp_path, robot)
+    assert (tmp_path / "canonical.npz").read_bytes() == (robot / "canonical.npz").read_bytes()
+
+
+def test_other_seeds_make_other_policies(pair, tmp_path):
+    assert not same(co_optimise(tmp_path, seed=1) / "human", pair / "human")
+
+
+def test_finished_directories_are_refused(pair, robot, vanilla):
+    with pytest.raises(UserError, match="already holds a finished pair: choose another directory"):
+        co_optimise(pair)
+    with pytest.raises(UserError, match="already holds a robot: choose another directory"):
+        vanilla(robot)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"seed": 1},
+        {"settings": replace(PAIR, iterations=20)},
+        {"settings": replace(PAIR, hidden=(7,))},
+        {"task": ToyReach(horizon=11)},
+    ],
+    ids=["seed", "settings", "networks", "task"],
+)
+def test_a_checkpoint_of_another_training_is_refused(tmp_path, changes):
+    with pytest.raises(KeyboardInterrupt):
+        co_optimise(tmp_path, Seen(last=9))
+    with pytest.raises(UserError, match="is from a training with other settings: choose another"):
+        co_optimise(tmp_path, **changes)
+
+
+def test_a_truncated_checkpoint_is_refused(tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        co_optimise(tmp_path, Seen(last=9))
+    path = tmp_path / "checkpoint.safetensors"
+    path.write_bytes(path.read_bytes()[:500])
+    with pytest.raises(UserError, match=r"is damaged .*: delete this file to train from the start"):
+        co_optimise(tmp_path)
+
+
+def test_a_directory_that_holds_no_pair_is_refused(vanilla, tmp_path):
+    with pytest.raises(UserError, match=r"holds no human/: give a directory of `rigid train co-op"):
+        vanilla(tmp_path / "robot", pair=tmp_path)
+
+
+def test_a_pair_of_another_task_is_refused(vanilla, tmp_path):
+    other = co_optimise(
+        tmp_path / "pair", settings=replace(PAIR, iterations=1), task=ToyReach(name="other")
+    )
+    with pytest.raises(UserError, match="was trained for task 'other', not 'toy-reach'"):
+        vanilla(tmp_path / "robot", pair=other)

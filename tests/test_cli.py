@@ -1,0 +1,150 @@
+"""The command line as a whole: help, exit codes, and one clear message for bad input."""
+
+from __future__ import annotations
+
+import dataclasses
+import subprocess
+import sys
+
+import pytest
+
+from rigid import cli
+from rigid.cli import run
+from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
+from rigid.commands.playing import EvaluateCommand, RecordCommand
+from rigid.commands.training import CoOptimizeCommand, VanillaCommand
+from rigid.errors import UserError
+
+COMMANDS = {
+    "demo": DemoCommand,
+    "frontier": FrontierCommand,
+    "report": ReportCommand,
+    "train co-optimize": CoOptimizeCommand,
+    "train vanilla": VanillaCommand,
+    "record": RecordCommand,
+    "evaluate": EvaluateCommand,
+}
+
+
+@pytest.fixture
+def help_of(capsys, monkeypatch):
+    """What `rigid ARGUMENTS --help` prints, on a screen that is wide enough."""
+    monkeypatch.setenv("COLUMNS", "200")
+
+    def ask(*arguments):
+        with pytest.raises(SystemExit) as end:
+            run([*arguments, "--help"])
+        assert end.value.code == 0
+        return capsys.readouterr().out
+
+    return ask
+
+
+def test_help_lists_every_command_with_one_line(help_of):
+    text = help_of()
+    for name, command in COMMANDS.items():
+        assert f"• {name.split()[0]}" in text
+        if " " not in name:
+            assert command.__doc__.splitlines()[0] in text
+    assert "Example" not in text
+
+
+def test_every_command_is_covered_here():
+    assert {name.split()[0] for name in COMMANDS} == set(cli._COMMANDS)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_of_a_command_begins_with_examples_of_it(name, help_of):
+    text = help_of(*name.split())
+    assert f"usage: rigid {name}" in text
+    assert f"\n  rigid {name} " in text.partition("--help")[0]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_names_every_option_with_its_default(name, help_of):
+    lines = [line.strip("│| ") for line in help_of(*name.split()).splitlines()]
+    for field in dataclasses.fields(COMMANDS[name]):
+        option = "PATH " if name == "report" and field.name == "directory" else f"--{field.name} "
+        (line,) = [line for line in lines if line.startswith(option)]
+        required = field.default is dataclasses.MISSING
+        assert ("(required)" if required else f"(default: {field.default})") in line
+
+
+def test_help_of_train_lists_the_recipes_with_examples(help_of):
+    text = help_of("train")
+    assert "rigid train co-optimize --seed" in text
+    assert "rigid train vanilla --pair" in text
+
+
+def test_help_loads_no_numerics():
+    """They take seconds; whoever asks for help should not wait."""
+    script = (
+        "import sys; from rigid.cli import run\n"
+        "try: run(['frontier', '--help'])\n"
+        "finally: print({'jax', 'mujoco', 'scipy', 'numpy'} & set(sys.modules), file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert done.stderr == "set()\n"
+
+
+@pytest.mark.parametrize(
+    "arguments", [[], ["fronteer"], ["demo", "--robot", "x"], ["frontier"], ["evaluate", "--seed"]]
+)
+def test_what_cannot_be_parsed_exits_with_2(arguments, capsys):
+    with pytest.raises(SystemExit) as end:
+        run(arguments)
+    assert end.value.code == 2
+    assert "rigid" in capsys.readouterr().err
+
+
+@dataclasses.dataclass
+class Command:
+    """Fails as it is told."""
+
+    def run(self):
+        raise self.error
+
+
+@pytest.fixture
+def exit_of(monkeypatch, capsys):
+    """Exit code and message of a command that fails with `error`."""
+
+    def fail(error):
+        monkeypatch.setattr(Command, "error", error, raising=False)
+        monkeypatch.setattr(cli, "_COMMANDS", {"fail": Command, "other": ReportCommand})
+        code = run(["fail"])
+        captured = capsys.readouterr()
+        assert captured.out == ""
+        return code, captured.err
+
+    return fail
+
+
+def test_bad_input_exits_with_2_and_one_message(exit_of):
+    assert exit_of(UserError("no such robot")) == (2, "rigid: no such robot\n")
+
+
+def test_an_interrupted_command_exits_with_130(exit_of):
+    message = "\nrigid: interrupted; the same command goes on\n"
+    assert exit_of(KeyboardInterrupt()) == (130, message)
+
+
+def test_an_interrupted_command_may_say_where_to_go_on(exit_of):
+    code, message = exit_of(KeyboardInterrupt("the same command goes on in runs/demo"))
+    assert code == 130
+    assert message.endswith("interrupted; the same command goes on in runs/demo\n")
+
+
+def test_a_bug_keeps_its_traceback(exit_of):
+    with pytest.raises(ZeroDivisionError):
+        exit_of(ZeroDivisionError())
+
+
+def test_main_exits_with_the_code_of_the_command(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(sys, "argv", ["rigid", "report", str(tmp_path)])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    assert end.value.code == 2
+    assert "frontier.json does not exist" in capsys.readouterr().err
