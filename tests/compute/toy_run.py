@@ -5,4 +5,5 @@ from rigid.presets import PRESETS
 from tests.compute.tiny import TINY
 
 PRESETS[TINY.name] = TINY
-main()
+if __name__ == "__main__":  # Doctests import it.
+    main()

@@ -33,15 +33,15 @@ class OpenWorld(ToyWorld):
         return step._replace(robot_observation=np.concatenate([step.robot_observation, goal], 1))
 
 
-def goer(point: int, *, std=0.2, hidden=(16,)) -> GaussianParameters:
+def goer(point: int, *, std=0.2, hidden=16) -> GaussianParameters:
     """Moves what it sees at place `point` to the goal, which it sees last, at full speed.
 
     Its first hidden unit does the work; the others are there to learn with.
     """
-    network = init_mlp(jax.random.key(0), (3, *hidden, 1), last_scale=0.0)
+    network = init_mlp(jax.random.key(0), (3, hidden, 1))
     gaze = jnp.zeros(3).at[point].set(-1.0).at[2].set(1.0)
     first = network[0]["w"].at[:, 0].set(0.5 * gaze)
-    last = network[1]["w"].at[0, 0].set(2 / SPEED)
+    last = jnp.zeros((hidden, 1)).at[0, 0].set(2 / SPEED)
     network = [network[0] | {"w": first}, network[1] | {"w": last}]
     return GaussianParameters(network, jnp.full(1, np.log(std), jnp.float32), init_normaliser(3))
 

@@ -37,7 +37,9 @@ SETTINGS = AdversarySettings(
     iterations=30,
     episodes=EPISODES,
     ppo=PPOSettings(learning_rate=1e-2, minibatch=160, epochs=4, update_normaliser=False),
-    discriminator=DiscriminatorSettings(hidden=(16,), steps=10, minibatch=128, replay_iterations=3),
+    discriminator=DiscriminatorSettings(
+        hidden=(16,), learning_rate=3e-3, steps=20, minibatch=128, replay_iterations=3
+    ),
 )
 INF = float("inf")
 

@@ -141,7 +141,7 @@ def _play(
         action, state = student.sample(seen[:, : student.observation_size], state, rng)
         return action
 
-    bounds = np.linspace(0, settings.episodes, len(humans) + 1).astype(int)
+    bounds = np.linspace(0, settings.episodes, len(humans) + 1).astype(int).tolist()
     parts = list(pairwise(bounds))
     actors = [
         policy_actor(human, high - low, rng)
