@@ -39,8 +39,8 @@ def test_json_is_all_that_stands_on_standard_output(frontier, tmp_path):
     assert [point["lambda"] for point in json.loads(out)["points"]] == [0.0, "inf"]
     assert json.loads(out) == load_frontier(tmp_path / "run").data
     assert (tmp_path / "run" / "report.html").exists()
-    assert "1,600 training steps; about " in err
-    assert f"preparing {tmp_path.parent}" not in out
+    steps = 2 * TINY.iterations * TINY.episodes * FilmedReach().horizon
+    assert f"{steps:,} training steps; about " in err
 
 
 def test_a_finished_directory_says_so_and_shows_its_headline(frontier, small_run):
@@ -136,9 +136,9 @@ def test_canonical_episodes_of_another_task_exit_with_2(frontier, episodes, tmp_
 
 def test_canonical_episodes_with_nan_exit_with_2(frontier, episodes, tmp_path, monkeypatch):
     episodes.features[2, 3, 1] = float("nan")
-    monkeypatch.setattr("rigid.data.episodes.check_values", lambda *_, **__: None)
-    save_episodes(tmp_path / "c.npz", episodes)
-    monkeypatch.undo()
+    with monkeypatch.context() as unchecked:
+        unchecked.setattr("rigid.data.episodes.check_values", lambda *_, **__: None)
+        save_episodes(tmp_path / "c.npz", episodes)
     code, _, err = frontier("--canonical", tmp_path / "c.npz")
     assert code == 2
     assert "not finite, the first in episode 2, step 3, feature 'goal'" in err
@@ -157,7 +157,9 @@ def fitted(toys, monkeypatch):
     del toys
     monkeypatch.setattr(budget, "training_speed", lambda _: 1.0)
 
-    def fit(out, *, seconds=budget.FIXED_SECONDS + 2400, seeds=None, lambdas=None):
+    half = TINY.env_steps(FilmedReach().horizon) / 2
+
+    def fit(out, *, seconds=budget.FIXED_SECONDS + half, seeds=None, lambdas=None):
         options = FrontierCommand(out=out, task="toy-reach", preset="tiny", seeds=seeds)
         return measuring._fitted(TINY, options, seconds, lambdas)
 

@@ -31,6 +31,13 @@ def test_iterations_go_first():
     assert fitted(0.5) == replace(PRESET, iterations=50)
 
 
+def test_a_preset_of_fewer_iterations_keeps_them():
+    few = replace(PRESET, iterations=5)
+    seconds = FIXED_SECONDS + few.env_steps(HORIZON) / 2
+    fit = fit_to(few, seconds, horizon=HORIZON, steps_per_second=1.0)
+    assert fit == replace(few, seeds=(0, 1))
+
+
 def test_seeds_go_when_twenty_iterations_are_left():
     assert fitted(0.1) == replace(PRESET, iterations=20, seeds=(0, 1))
 

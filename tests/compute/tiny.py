@@ -87,11 +87,13 @@ def install_toy(base: Path) -> Path:
 
 def start_rigid(site: Path, *arguments: str) -> subprocess.Popen[str]:
     """`rigid` in a process of its own, with the toy task and the preset `tiny`."""
+    # The smallest of computations are cached as well: such a process compiles hundreds.
+    caching = {"JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0"}
     places = [str(ROOT), str(site), os.environ.get("PYTHONPATH", "")]
     return subprocess.Popen(
         [sys.executable, "-m", "tests.compute.toy_run", *arguments],
         cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, places))},
+        env={**os.environ, **caching, "PYTHONPATH": os.pathsep.join(filter(None, places))},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

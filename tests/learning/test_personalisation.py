@@ -58,7 +58,12 @@ class Constant:
 
 @pytest.fixture(scope="module")
 def trained():
+    """The robot, and after every iteration: learner, updates compiled so far."""
     history = []
+
+    def report(_, learner):
+        history.append((learner, personalisation._update._cache_size()))
+
     robot = personalise(
         TASK,
         PRIVILEGED,
@@ -66,9 +71,9 @@ def trained():
         [Pointer()],
         SETTINGS,
         seed=0,
-        report=lambda progress, learner: history.append((progress, learner)),
+        report=report,
     )
-    return robot, history
+    return robot, *zip(*history, strict=True)
 
 
 def mean_return(task, robot):
@@ -107,7 +112,7 @@ def test_the_rollout_hides_the_goal_from_the_student_alone():
 
 
 def test_stopping_and_going_on_changes_nothing(trained):
-    robot, history = trained
+    robot, learners, _ = trained
     behind = SETTINGS.iterations - STOP
     resumed = personalise(
         TASK,
@@ -116,14 +121,14 @@ def test_stopping_and_going_on_changes_nothing(trained):
         [Pointer()],
         SETTINGS,
         seed=0,
-        start=(history[behind - 1][1], behind),
+        start=(learners[behind - 1], behind),
     )
     assert bitwise_equal(resumed, robot)
 
 
 def test_every_iteration_uses_the_same_compiled_update(trained):
-    assert trained
-    assert personalisation._update._cache_size() == 1
+    *_, compiled = trained
+    assert len(set(compiled)) == 1
 
 
 def test_humans_share_the_episodes_evenly():

@@ -43,14 +43,15 @@ def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: fl
     share = affordable / preset.env_steps(horizon)
     if share >= 1:
         return preset
-    iterations = max(int(share * preset.iterations), _LEAST_ITERATIONS)
+    least = min(_LEAST_ITERATIONS, preset.iterations)
+    iterations = max(int(share * preset.iterations), least)
     per_seed = replace(preset, seeds=preset.seeds[:1], iterations=iterations).env_steps(horizon)
     seeds = int(affordable // per_seed)
     if seeds < 1:
-        least = FIXED_SECONDS + per_seed / steps_per_second
+        needed = FIXED_SECONDS + per_seed / steps_per_second
         raise UserError(
-            f"--budget is too short for preset {preset.name!r}: one seed of {_LEAST_ITERATIONS} "
-            f"iterations takes about {least:.0f} s here"
+            f"--budget is too short for preset {preset.name!r}: one seed of {least} iterations "
+            f"takes about {needed:.0f} s here"
         )
     return replace(preset, iterations=iterations, seeds=preset.seeds[:seeds])
 

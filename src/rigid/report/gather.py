@@ -6,7 +6,9 @@ it the report simply has no replays.
 
 from __future__ import annotations
 
+import io
 import json
+import re
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -33,6 +35,7 @@ _LEARNING = {
     "accuracy_adversary": "accuracy_adversary",
     "entropy": "entropy",
 }
+_ID = re.compile(r"[\w-]+", re.ASCII)
 _GRID = 101
 """Places on the x axis at which the interval band is drawn."""
 
@@ -52,14 +55,15 @@ def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
     """The report's `Payload`, read from the run directory of `frontier`."""
     described = settings["identity"].get("task")
     task = task_from_description(described) if isinstance(described, Mapping) else None
-    directory = frontier.directory
     return {
         "frontier": frontier.data,
         "settings": settings,
         "stamp": frontier.data.get("stamp"),
         "band": band(frontier),
         "passive": frontier.data.get("passive"),
-        "learning": {p["id"]: learning_curves(directory, p["id"]) for p in frontier.points},
+        "learning": {
+            point["id"]: learning_curves(_folder(frontier, point)) for point in frontier.points
+        },
         "scene": None if task is None else task.scene(),
         "replays": None if task is None else replays(frontier, task),
     }
@@ -80,9 +84,9 @@ def band(frontier: Frontier) -> dict[str, Any]:
     }
 
 
-def learning_curves(directory: Path, point: str) -> dict[str, list[float]]:
-    """One adversary's training, iteration by iteration."""
-    path = directory / "adversaries" / point / "metrics.jsonl"
+def learning_curves(adversary: Path) -> dict[str, list[float]]:
+    """One adversary's training, iteration by iteration, from its directory."""
+    path = adversary / "metrics.jsonl"
     cure = "measure again to get its learning curves back"
     try:
         rows = [json.loads(line) for line in read_bytes(path, cure=cure).splitlines()]
@@ -99,7 +103,7 @@ def replays(frontier: Frontier, task: Task) -> dict[str, Any] | None:
     """
     shown: dict[str, Any] = {"canonical": {}}
     for point in frontier.points:
-        arrays = _episodes(frontier.directory / "adversaries" / point["id"] / "episodes.npz")
+        arrays = _episodes(_folder(frontier, point) / "episodes.npz")
         if arrays["snapshots"].shape[-1] == 0:
             return None
         entry = {}
@@ -128,6 +132,15 @@ def _motion(task: Task, snapshots: np.ndarray) -> dict[str, Any]:
     return shown
 
 
+def _folder(frontier: Frontier, point: Mapping[str, Any]) -> Path:
+    """Where an adversary lies; a stranger's id leads nowhere else."""
+    name = str(point["id"])
+    if not _ID.fullmatch(name):
+        where = frontier.directory / "frontier.json"
+        raise UserError(f"{where} has a point {name!r}, which is no id such as s0-r1-l1")
+    return frontier.directory / "adversaries" / name
+
+
 def _ending(task: Task, seed: int, total: np.ndarray, outcome: np.ndarray) -> dict[str, Any]:
     """How an episode ended, under the report's names."""
     return {
@@ -139,8 +152,9 @@ def _ending(task: Task, seed: int, total: np.ndarray, outcome: np.ndarray) -> di
 
 def _episodes(path: Path) -> Mapping[str, np.ndarray]:
     cure = "measure again to get its replays back"
+    stored = io.BytesIO(read_bytes(path, cure=cure))
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with np.load(stored, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+    except (ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise UserError(f"{path} cannot be read ({error}): {cure}") from None

@@ -114,6 +114,19 @@ def test_a_counted_contact_pays_in_the_step_that_counts_it(scratched):
     np.testing.assert_array_equal(counted.sum(axis=0), world.counted)
 
 
+def test_contacts_are_counted_from_the_last_counted_one(task, scratched):
+    world, rows = scratched
+    sensors, last = Sensors(task.model), np.zeros((6, 3))
+    for _, _, recorded, step in rows:
+        seen = sensors.contacts(recorded, world.itch)
+        for index, counted in enumerate(step.info["counted"]):
+            moved = np.linalg.norm(seen.itch_contact[index] - last[index])
+            gentle = seen.force_itch[index].max() < 10
+            assert counted == (seen.itch_touched[index] and gentle and moved > 0.01)
+            if counted:
+                last[index] = seen.itch_contact[index]
+
+
 def test_peaks_cover_the_whole_control_step(scratched):
     _, rows = scratched
     peak = np.array([step.info["force_on_person"] for *_, step in rows])
@@ -203,6 +216,17 @@ def test_tip_and_rod_scratch_the_itching_limb_only(one_contact, limb, geom):
     np.testing.assert_array_equal(seen(limb).itch_contact[0], (0.01, 0, 0))
     assert not seen(other).itch_touched[0]
     assert seen(other).force_itch[0, 0] == 0
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_the_arms_may_be_touched_and_nothing_else(task, part):
+    data = np.zeros((1, 1, task.model.nsensordata))
+    data[0, 0, task.model.sensor(f"contact_{part}").adr[0]] = 5.0
+    seen = Sensors(task.model).contacts(data, np.array([0]))
+    unwanted = part not in {"right_upper_arm", "right_forearm", "right_hand", "left_arm"}
+    assert seen.force_on_person[0, 0] == 5
+    assert seen.force_unwanted[0, 0] == 5 * unwanted
+    assert seen.touched_unwanted[0] == unwanted
 
 
 def test_the_last_contact_of_the_step_is_the_one_that_counts(task):

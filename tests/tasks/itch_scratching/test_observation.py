@@ -63,16 +63,12 @@ def test_no_number_of_the_robot_is_named_after_the_itch(task):
     assert [name for name in task.seeing_the_itch().robot.observation_names if "itch" in name]
 
 
-SHARED_NAMES = pytest.mark.xfail(reason="shoulder_x names a joint and a coordinate", strict=True)
-
-
-@pytest.mark.parametrize("agent", ["robot", pytest.param("human", marks=SHARED_NAMES)])
+@pytest.mark.parametrize("agent", AGENTS)
 def test_observation_names_are_unique(task, agent):
     names = getattr(task, agent).observation_names
     assert len(set(names)) == len(names)
 
 
-@SHARED_NAMES
 @pytest.mark.parametrize("agent", AGENTS)
 def test_ordinary_play_stays_within_the_bounds(task, agent):
     world, rng = task.make_world(32, threads=1), np.random.default_rng(0)

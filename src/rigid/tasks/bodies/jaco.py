@@ -85,7 +85,8 @@ def robot_servo(profile: Literal["paper", "datasheet"]) -> Servo:
     if profile == "paper":
         return Servo(1.7, 0.03, (1.0,) * 7)
     # Kinova's data sheet: 30.5 N·m for the four large actuators, 6.8 N·m for the wrist.
-    return Servo(1.7, 0.03, (30.5,) * 4 + (6.8,) * 3)
+    # The higher gain asks for up to 6.25 N·m; one of 30 swings at steps of 0.02 s.
+    return Servo(10.0, 0.03, (30.5,) * 4 + (6.8,) * 3)
 
 
 def quaternion(rpy: tuple[float, float, float]) -> np.ndarray:

@@ -21,7 +21,7 @@ def _points(*names: str) -> list[str]:
 
 _TIP = [*_points("tip"), *(f"tip_quaternion_{axis}" for axis in ("w", *_AXES))]
 _TARGET = _points("tip_to_itch", "itch")
-_ARM = _points("shoulder", "elbow", "wrist")
+_ARM = _points("shoulder_position", "elbow_position", "wrist_position")
 ROBOT_NAMES = (*_TIP, *jaco.JOINT_NAMES, *_ARM, "tool_force")
 ROBOT_SEEING_NAMES = (*ROBOT_NAMES, *_TARGET)
 HUMAN_NAMES = (*_TIP, *_TARGET, *human.ARM_JOINTS, *_ARM, "force_on_person", "force_at_itch")

@@ -11,6 +11,10 @@ CONTACTS_PER_PART = 3
 """Contacts kept for each body part; normal forces are summed, the strongest are kept."""
 
 _PARTS = human.ARM_PARTS + human.TRUNK_PARTS
+CONTACT_TIME = 0.04
+"""Time constant of contacts and limits [s]: MuJoCo's least at the original's physics step, stated
+so that finer steps keep the same softness."""
+
 LIMBS: tuple[human.Limb, ...] = ("forearm", "upper_arm")
 """Where it can itch; the human's one-hot itch feature has this order."""
 _FOUND, _FORCE, _DIST, _POS = (
@@ -48,6 +52,10 @@ def build_spec(parameters: ItchScratchingParameters) -> mujoco.MjSpec:
         servo=jaco.robot_servo(parameters.servo),
     )
     scratcher.add_scratcher(hand)
+    for geom in spec.geoms:
+        geom.solref[0] = CONTACT_TIME
+    for joint in spec.joints:
+        joint.solref_limit[0] = CONTACT_TIME
     for limb in LIMBS:
         body, position, _ = human.itch_point(size, limb)
         spec.body(body).add_site(name=f"itch_{limb}", pos=position, size=(0.01, 0, 0))

@@ -100,6 +100,7 @@ class ItchScratchingWorld:
         self._batch.rollout(self._parameters.substeps, record=("sensordata",), out=self._records)
         self._time += 1
         self._restart_faulted()
+        action[self.faulted] = 0.0  # It may not have been finite.
         data = self._records["sensordata"]
         contacts = self._sensors.contacts(data, self.itch)
         poses = self._sensors.poses(data[:, -1])
@@ -111,6 +112,8 @@ class ItchScratchingWorld:
         data = self._records["sensordata"]
         broken = ~(np.abs(speed) < MAX_SPEED).all(axis=1) | ~np.isfinite(angle).all(axis=1)
         broken |= ~np.isfinite(data).all(axis=(1, 2)) | (self._batch.status != 0)
+        # A warning (bad control, full buffers) ends the world's control step early.
+        broken |= self._batch.warning[..., 1].any(axis=1)
         broken |= self._sensors.penetration(data) > MAX_PENETRATION
         if broken.any():
             worlds = np.flatnonzero(broken).astype(np.int32)
