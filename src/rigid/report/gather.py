@@ -141,7 +141,7 @@ def _folder(frontier: Frontier, point: Mapping[str, Any]) -> Path:
     return frontier.directory / "adversaries" / name
 
 
-def _ending(task: Task, seed: int, total: np.ndarray, outcome: np.ndarray) -> dict[str, Any]:
+def _ending(task: Task, seed: int, total: np.number, outcome: np.number) -> dict[str, Any]:
     """How an episode ended, under the report's names."""
     return {
         "seed": seed,
