@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import os
 import signal
+import threading
 import time
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
+from rigid import presets
+from rigid.cli import run
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier
-from tests.compute.tiny import Notes, start_rigid, without_times
+from tests.compute.tiny import TINY, Notes, start_rigid, without_times
 
 PATIENCE = 300.0
 """Seconds until a stage counts as hung; a shared machine may be slow."""
@@ -36,29 +41,56 @@ def options_of(base: Path, out: Path) -> tuple[str, ...]:
     )  # fmt: skip
 
 
-def stop_at(process, path: Path, with_signal: signal.Signals) -> tuple[str, str]:
-    """Signals `process` as soon as `path` exists; returns what it printed."""
+def killed_at(path: Path, process) -> int:
+    """Exit code of a process that is killed as soon as `path` exists."""
     give_up = time.monotonic() + PATIENCE
     while not path.exists():
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < give_up, f"{path} did not appear"
         time.sleep(0.01)
-    os.kill(process.pid, with_signal)
-    return process.communicate(timeout=PATIENCE)
+    process.kill()
+    process.communicate(timeout=PATIENCE)
+    return process.returncode
+
+
+@contextlib.contextmanager
+def interrupt_at(path: Path):
+    """Sends SIGINT to this process as soon as `path` exists, as Ctrl-C does."""
+    over = threading.Event()
+
+    def watch():
+        while not over.wait(0.01):
+            if path.exists():
+                os.kill(os.getpid(), signal.SIGINT)
+                return
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    try:
+        yield
+    finally:
+        over.set()
+        watcher.join()
 
 
 @pytest.fixture(scope="module")
 def disturbed(base, site, measure, tmp_path_factory) -> Disturbed:
     out = tmp_path_factory.mktemp("disturbed") / "run"
-    groups = out / "groups"
+    groups, options = out / "groups", options_of(base, out)
     for moment in ("s0-r1.safetensors", "s0-r1.json"):  # A checkpoint, and a finished group.
-        process = start_rigid(site, *options_of(base, out))
-        stop_at(process, groups / moment, signal.SIGKILL)
-        assert process.returncode == -signal.SIGKILL
-    process = start_rigid(site, *options_of(base, out))
-    output, message = stop_at(process, groups / "s0-r2.safetensors", signal.SIGINT)
+        assert killed_at(groups / moment, start_rigid(site, *options)) == -signal.SIGKILL
+    output, message = io.StringIO(), io.StringIO()
+    with (
+        pytest.MonkeyPatch.context() as patch,
+        contextlib.redirect_stdout(output),
+        contextlib.redirect_stderr(message),
+    ):
+        patch.syspath_prepend(site)
+        patch.setitem(presets.PRESETS, "tiny", TINY)
+        with interrupt_at(groups / "s0-r2.safetensors"):
+            exit_code = run(options)
     assert not (out / "frontier.json").exists()
-    return Disturbed(measure(out, seeds=[0]), process.returncode, output, message)
+    return Disturbed(measure(out, seeds=[0]), exit_code, output.getvalue(), message.getvalue())
 
 
 def test_a_run_that_was_killed_twice_ends_with_the_same_numbers(disturbed, single_run):

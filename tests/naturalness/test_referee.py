@@ -11,7 +11,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import norm
 
-from rigid.learning.rollout import play, policy_actor
 from rigid.naturalness.referee import (
     Referee,
     RefereeSettings,
@@ -22,7 +21,6 @@ from rigid.naturalness.referee import (
 )
 from rigid.naturalness.standardise import canonical_scale
 from tests.naturalness import offset_catch
-from tests.toys import Follower, Pointer, ToyReach
 
 SHIFTS = (0.0, 1.0, 2.0)
 ratios = st.lists(st.floats(-5, 5), min_size=1, max_size=20).map(np.array)
@@ -149,20 +147,3 @@ def test_unequal_features_are_refused():
     scale = canonical_scale(canonical.train)
     with pytest.raises(ValueError, match=r"canonical rows have 22 features, the adversary's 10"):
         train_referee(canonical, adversary, scale, RefereeSettings(), jax.random.key(0))
-
-
-def play_features(human, seed, episodes=400):
-    """Features of episodes on the toy task, one row for each step."""
-    task, rng = ToyReach(), np.random.default_rng(seed)
-    starts = rng.integers(2**31, size=episodes)
-    actors = policy_actor(Follower(), episodes, None), policy_actor(human, episodes, rng)
-    features = play(task, task.make_world(episodes), starts, *actors).features
-    return features.swapaxes(0, 1).reshape(-1, 2)
-
-
-def test_pointing_at_the_other_goal_is_not_natural_though_the_motion_is():
-    canonical = [play_features(Pointer(), seed) for seed in (0, 1)]
-    liar = [play_features(Pointer(honest=False), seed) for seed in (2, 3)]
-    referee = referee_between(canonical[0], liar[0])
-    seen = overlap(log_ratio(referee, liar[1]), log_ratio(referee, canonical[1]), 4.0)
-    assert seen <= 0.3

@@ -1,0 +1,64 @@
+"""The exploit that features must see: moving naturally, but for the other itch."""
+
+import jax
+import mujoco
+import numpy as np
+import pytest
+
+from rigid.compute.scoring import Ruler, naturalness_of, train_on
+from rigid.data.recording import record
+from rigid.learning.rollout import play, policy_actor
+from rigid.naturalness.referee import RefereeSettings, Rows
+from rigid.policies.loading import load_policy
+from rigid.tasks.itch_scratching.scene import LIMBS
+from rigid.tasks.registry import make_task
+
+TIP, TIP_TO_ITCH, ITCH = slice(0, 3), slice(7, 10), slice(10, 13)  # Of the human's observation.
+
+
+@pytest.fixture(scope="module")
+def players():
+    task = make_task("itch-scratching")
+    return (
+        task,
+        load_policy("builtin:vanilla", task=task, agent="robot"),
+        load_policy("builtin:synthetic-human", task=task, agent="human"),
+    )
+
+
+def episodes_for_the_other_itch(players, episodes, seed):
+    task, robot, human = players
+    world, rng = task.make_world(episodes), np.random.default_rng(seed)
+    data = mujoco.MjData(task.model)
+    seen = {}
+
+    def watch(_, __):
+        seen["snapshot"] = world.snapshot()
+
+    def other_itch(row):
+        data.qpos[:] = row[: task.model.nq]
+        mujoco.mj_kinematics(task.model, data)
+        return data.site(f"itch_{LIMBS[1 - int(row[-2])]}").xpos - task.chest
+
+    def act(observation):
+        mistaken = observation.copy()
+        mistaken[:, ITCH] = [other_itch(row) for row in seen["snapshot"]]
+        mistaken[:, TIP_TO_ITCH] = mistaken[:, TIP] - mistaken[:, ITCH]
+        return human.act(mistaken, (), rng)[0]
+
+    starts = rng.integers(2**31, size=episodes)
+    robot_actor = policy_actor(robot, episodes, None)
+    return play(task, world, starts, robot_actor, act, watch=watch)
+
+
+def test_a_human_who_acts_as_if_the_other_itch_itched_is_not_natural(players):
+    task, robot, human = players
+    canonical = record(task, robot, human, episodes=90, seed=5, batch=30, provenance={})
+    ruler = Ruler(*np.split(canonical.features, 3), task.return_range, RefereeSettings())
+    found = [episodes_for_the_other_itch(players, n, seed) for seed, n in enumerate((30, 15, 40))]
+    rows = [played.features.reshape(-1, played.features.shape[-1]) for played in found]
+
+    referee = train_on(ruler, Rows(*rows[:2]), jax.random.key(0))
+
+    assert found[2].summary.success.mean() == 0
+    assert naturalness_of(ruler, referee, rows[2])["naturalness"] <= 0.3
