@@ -36,7 +36,9 @@ EPISODES = 32
 SETTINGS = AdversarySettings(
     iterations=30,
     episodes=EPISODES,
-    ppo=PPOSettings(learning_rate=1e-2, minibatch=160, epochs=4, update_normaliser=False),
+    ppo=PPOSettings(
+        learning_rate=1e-2, minibatch=160, epochs=4, update_normaliser=False, signal_floor=0.1
+    ),
     discriminator=DiscriminatorSettings(
         hidden=(16,), learning_rate=3e-3, steps=20, minibatch=128, replay_iterations=3
     ),
@@ -262,6 +264,17 @@ def test_what_follows_a_fault_moves_nothing(opponent):
         features=jnp.where(lost[..., None], 1e3, rows.features),
     )
     assert bitwise_equal(update(opponent, adversary, rows), update(opponent, adversary, ruined))
+
+
+def test_with_nothing_to_gain_the_policy_rests(opponent):
+    """Advantages are standardised, so without the floor noise would drive it at full pace."""
+    adversary = start(opponent, 0.0)[0]._replace(iteration=jnp.asarray(5, jnp.int32))
+    before, steps = adversary.learner.policy.network[0]["w"], {}
+    for size in (0.0, 10.0):
+        rows = experience()
+        after, _ = update(opponent, adversary, rows._replace(reward=size * rows.reward))
+        steps[size] = np.abs(after.learner.policy.network[0]["w"] - before).max()
+    assert steps[0.0] < 0.3 * steps[10.0]
 
 
 def test_lambda_0_is_blind_to_features_and_lambda_inf_to_reward(opponent):
