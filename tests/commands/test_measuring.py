@@ -67,6 +67,7 @@ def test_the_headline_has_no_interval_from_one_seed_and_shows_the_stamp(small_ru
     one = {"auc_interval": None, "auc_by_seed": {"0": 0.5}, "stamp": "demo: not for publication"}
     text = headline(replace(small_run, data={**small_run.data, **one}), small_run.directory)
     assert "[one seed: no interval]" in text
+    assert "6 adversaries, 1 seed; " in text
     assert "\n  demo: not for publication\n" in text
 
 

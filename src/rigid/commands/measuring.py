@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
@@ -151,12 +152,17 @@ def headline(frontier: Frontier, report: Path) -> str:
         f"  worst at naturalness ≥ 0.9   {data['worst_at']['0.9']:.2f}  {_interval(worst)}",
         f"  area over [0.8, 1]           {data['auc_natural']:.2f}  {_interval(natural)}",
         f"  AUC                          {data['auc']:.2f}  {_interval(data['auc_interval'])}",
-        f"  {len(frontier.points)} adversaries, {len(data['auc_by_seed'])} seeds; lower is better",
+        f"  {len(frontier.points)} adversaries, {_seeds(data)}; lower is better",
         "  an estimate at this search power, not a bound",
     ]
     if data.get("stamp"):
         lines.append(f"  {data['stamp']}")
     return "\n".join([*lines, "", f"report: {report}"])
+
+
+def _seeds(data: Mapping[str, Any]) -> str:
+    count = len(data["auc_by_seed"])
+    return "1 seed" if count == 1 else f"{count} seeds"
 
 
 def _interval(ends: list[float] | None) -> str:
