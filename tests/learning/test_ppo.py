@@ -117,23 +117,34 @@ def test_a_delayed_reward_is_discounted_by_gamma():
     assert mean(learner, 0.0) == pytest.approx(0.2, abs=0.1)
 
 
-def test_steps_after_a_fault_do_not_move_anything():
-    learner, rng = fresh(), np.random.default_rng(0)
-    weight = np.ones((STEPS, EPISODES), np.float32)
-    weight[1, ::3] = 0.0
-    weight[:, 1] = 0.0
-    played = rollout(learner, rng, a_sign(rng), lambda _, action: action)
-    played = played._replace(weight=jnp.asarray(weight))
+@pytest.mark.parametrize("settings", [SETTINGS, CLONING], ids=["reward", "cloning"])
+def test_steps_after_a_fault_do_not_move_anything(settings):
+    learner, rng = fresh(settings), np.random.default_rng(0)
+    weight = jnp.ones((STEPS, EPISODES)).at[1, ::3].set(0.0)
+    played = rollout(learner, rng, a_sign(rng), lambda _, action: action, weight=weight)
+    lost = weight[..., None] == 0
     ruined = played._replace(
         reward=jnp.where(weight > 0, played.reward, 1e9),
-        action=jnp.where(weight[..., None] > 0, played.action, 7.0),
-        expert_action=jnp.where(weight[..., None] > 0, played.expert_action, 1e9),
+        action=jnp.where(lost, 7.0, played.action),
+        expert_action=jnp.where(lost, 1e3, played.expert_action),
     )
+    one, other = (
+        _update(learner, x, jax.random.key(0), settings=settings)[0] for x in (played, ruined)
+    )
+    assert bitwise_equal(one, other)
+    assert not bitwise_equal(one, learner)
+
+
+def test_what_was_seen_in_lost_episodes_does_not_move_anything():
+    learner, rng = fresh(), np.random.default_rng(0)
+    weight = jnp.ones((STEPS, EPISODES)).at[:, ::3].set(0.0)
+    played = rollout(learner, rng, a_sign(rng), lambda _, action: action, weight=weight)
+    seen = jnp.where(weight[..., None] > 0, played.observation, 5.0)
+    ruined = played._replace(observation=seen, critic_observation=seen)
     one, other = (
         _update(learner, x, jax.random.key(0), settings=SETTINGS)[0] for x in (played, ruined)
     )
     assert bitwise_equal(one, other)
-    assert not bitwise_equal(one, learner)
 
 
 def test_episodes_that_were_lost_from_the_start_teach_nothing():

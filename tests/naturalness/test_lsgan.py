@@ -77,6 +77,24 @@ def test_a_flat_discriminator_pays_no_gradient_penalty():
     assert (flat, line) == pytest.approx((flat_free, line_free + 10 * 2**2))
 
 
+def test_the_gradient_penalty_looks_at_canonical_rows_alone():
+    """A step at 0, where the adversary is; canonical rows lie on the flat parts."""
+    step = [
+        {"w": jnp.array([[20.0]]), "b": jnp.zeros(1)},
+        {"w": jnp.ones((1, 1)), "b": jnp.zeros(1)},
+    ]
+    free, paid = (
+        discriminator_loss(
+            step,
+            jnp.array([[-2.0], [2.0]]),
+            jnp.zeros((2, 1)),
+            DiscriminatorSettings(gradient_penalty=g),
+        )[0]
+        for g in (0.0, 10.0)
+    )
+    assert free == paid
+
+
 def test_canonical_scores_low_and_the_adversary_high(offset_catch):
     _, network, health = offset_catch
     scores = score(network, jnp.array([[-2.0], [4.0]]))
