@@ -10,6 +10,7 @@ import pytest
 from rigid.learning.ppo import (
     PPOSettings,
     Rollout,
+    _standardise,
     critic_values,
     init_learner,
     ppo_update,
@@ -145,6 +146,11 @@ def test_what_was_seen_in_lost_episodes_does_not_move_anything():
         _update(learner, x, jax.random.key(0), settings=SETTINGS)[0] for x in (played, ruined)
     )
     assert bitwise_equal(one, other)
+
+
+def test_advantages_are_standardised_over_sound_steps_alone():
+    gain, weight = jnp.array([[1.0, 3.0], [0.0, 0.0]]), jnp.array([[1.0, 1.0], [0.0, 0.0]])
+    np.testing.assert_allclose(_standardise(gain, weight)[0], [-1, 1], rtol=1e-5)
 
 
 def test_episodes_that_were_lost_from_the_start_teach_nothing():
