@@ -21,6 +21,7 @@ def measure(
     preset: str | Preset = "standard",
     seeds: Sequence[int] | None = None,
     lambdas: Sequence[float] | None = None,
+    memory: int = 1,
     human: str = "builtin:synthetic-human",
     canonical: str | Path | None = None,
     listener: Listener | None = None,
@@ -34,6 +35,7 @@ def measure(
         preset: `demo`, `standard`, `paper`, or a `Preset` of your own.
         seeds: Search seeds instead of the preset's.
         lambdas: Exactly these λ, without refinement; 0 and ∞ are allowed.
+        memory: Observations that an adversary acts on, the newest included.
         human: The synthetic human that the robot was trained for.
         canonical: A file of canonical episodes; by default the robot's own.
         listener: Told of progress.
@@ -53,5 +55,6 @@ def measure(
         out=Path(out),
         seeds=seeds,
         lambdas=lambdas,
+        memory=memory,
         listener=listener,
     )

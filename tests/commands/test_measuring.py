@@ -89,6 +89,7 @@ BAD_INPUT = {
     "strange preset": (["--preset", "xyz"], "preset 'xyz' is unknown; presets: demo, standard, "),
     "seeds": (["--seeds", "0.5"], "--seeds '0.5': '0.5' is no seed"),
     "lambdas": (["--lambdas", "a"], "--lambdas 'a': write numbers"),
+    "memory": (["--memory", "0"], "memory is 0, but an adversary sees at least 1 observation"),
     "budget": (["--budget", "30"], "--budget '30': write a time as 90s, 30m or 2h"),
     "short budget": (["--budget", "1s"], "--budget is too short for preset 'tiny'"),
     "canonical": (["--canonical", "none.npz"], "none.npz does not exist: record it"),

@@ -69,6 +69,13 @@ def test_an_adversary_can_be_loaded_and_knows_its_lambda(small_run):
         assert policy.observation_size == FilmedReach().human.observation_size
 
 
+def test_adversaries_with_memory_are_stored_with_it(measure, tmp_path):
+    frontier = measure(tmp_path / "run", seeds=[0], lambdas=[1.0], memory=3)
+    policy, _ = load_native(frontier.directory / "adversaries" / "s0-r1-l1")
+    assert policy.memory == 3
+    assert policy.observation_size == FilmedReach().human.observation_size
+
+
 def test_metrics_hold_one_json_line_for_each_iteration(small_run):
     text = (small_run.directory / "adversaries" / IDS[0] / "metrics.jsonl").read_text()
     rows = [json.loads(line) for line in text.splitlines()]

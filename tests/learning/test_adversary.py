@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 import jax
@@ -191,6 +192,32 @@ def test_a_group_acts_block_by_block_with_each_members_noise():
         rows = slice(3 * block, 3 * block + 3)
         mean, _ = GaussianPolicy(policy).sample(seen[rows], (), None)
         np.testing.assert_allclose(action[rows], mean + std * noise[block], rtol=1e-4, atol=1e-5)
+
+
+def test_a_group_with_memory_acts_as_each_policy_with_memory():
+    policies = [untrained(TASK.human, seed=i, std=1e-9, memory=3) for i in range(2)]
+    act = group_actor([policy.parameters for policy in policies], np.random.default_rng(0))
+    rng, states = np.random.default_rng(1), [policy.initial_state(3) for policy in policies]
+    for _ in range(4):
+        seen = rng.standard_normal((6, 3)).astype(np.float32)
+        action = act(seen)
+        for block, policy in enumerate(policies):
+            rows = slice(3 * block, 3 * block + 3)
+            mean, states[block] = policy.sample(seen[rows], states[block], None)
+            np.testing.assert_allclose(action[rows], mean, rtol=1e-4, atol=1e-5)
+
+
+def test_an_adversary_with_memory_starts_as_the_human_and_learns_from_its_past(opponent):
+    settings = replace(SETTINGS, memory=2)
+    group = [start_adversary(opponent, settings, 1.0, jax.random.key(0))]
+    size = TASK.human.observation_size
+    past = group[0].learner.policy.network[0]["w"][size:]
+    assert past.shape[0] == size
+    assert (past == 0).all()
+    world = TASK.make_world(EPISODES)
+    for _ in range(2):  # The first one teaches the critic alone.
+        group = [train_iteration(TASK, world, group, opponent, settings, 0)[0][0]]
+    assert (group[0].learner.policy.network[0]["w"][size:] != 0).any()
 
 
 def test_lambda_0_from_scratch_learns_to_harm(extremes):

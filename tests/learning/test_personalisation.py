@@ -11,14 +11,13 @@ import pytest
 from rigid.learning import personalisation
 from rigid.learning.personalisation import (
     PersonalisationSettings,
-    history_windows,
     noise_at,
     personalise,
     start_robot,
 )
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import play, policy_actor
-from rigid.policies.gaussian import GaussianPolicy, stack_history
+from rigid.policies.gaussian import GaussianPolicy
 from tests.learning.reach import OpenReach, bitwise_equal, goer
 from tests.toys import Pointer, ToyReach
 
@@ -139,15 +138,6 @@ def test_humans_share_the_episodes_evenly():
     np.testing.assert_array_equal(
         episodes.human_action[..., 0], np.tile(np.repeat([-1, 0, 1], 16), (TASK.horizon, 1))
     )
-
-
-def test_windows_of_history_are_those_the_policy_acts_on():
-    observation = np.random.default_rng(0).standard_normal((5, 4, 2)).astype(np.float32)
-    windows, past = history_windows(observation, 3), np.full((4, 4), np.nan, np.float32)
-    for seen, window in zip(observation, windows, strict=True):
-        expected = stack_history(seen, past)
-        np.testing.assert_array_equal(window, expected)
-        past = expected[:, :-2]
 
 
 def test_noise_falls_geometrically_from_the_first_to_the_last_iteration():

@@ -12,10 +12,12 @@ from rigid.policies.gaussian import (
     GaussianParameters,
     GaussianPolicy,
     group_mean_action,
+    history_windows,
     init_gaussian,
     log_density,
     mean_action,
     stack_history,
+    with_memory,
 )
 from rigid.policies.networks import Normaliser, init_normaliser
 from rigid.tasks.protocol import AgentSpec
@@ -106,6 +108,23 @@ def test_a_missing_past_is_filled_world_by_world():
     np.testing.assert_array_equal(
         window, [[8, 9, 1, 2, 1, 2], [8, 9, 8, 9, 8, 9], [8, 9, 1, 2, 3, 4]]
     )
+
+
+def test_windows_of_history_are_those_the_policy_acts_on():
+    observation = np.random.default_rng(0).standard_normal((5, 4, 2)).astype(np.float32)
+    windows, past = history_windows(observation, 3), np.full((4, 4), np.nan, np.float32)
+    for seen, window in zip(observation, windows, strict=True):
+        expected = stack_history(seen, past)
+        np.testing.assert_array_equal(window, expected)
+        past = expected[:, :-2]
+
+
+def test_a_policy_that_is_given_memory_acts_as_before_whatever_the_past_was():
+    plain = untrained(SPEC)
+    given = with_memory(plain.parameters, 3)
+    past = np.random.default_rng(1).standard_normal((4, 6)).astype(np.float32)
+    found = mean_action(given, jnp.asarray(np.concatenate([look(), past], axis=1)))
+    np.testing.assert_allclose(found, plain.act(look(), (), None)[0], rtol=1e-5, atol=1e-6)
 
 
 def test_a_policy_without_memory_carries_nothing():

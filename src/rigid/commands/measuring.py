@@ -45,6 +45,8 @@ class FrontierCommand:
     """Search seeds, as 0,1,2 or 0..9; by default the preset's."""
     lambdas: Annotated[str | None, _shown_as(metavar="LAMBDAS")] = None
     """Exactly these weights, as 0,0.01,1,inf, without refinement."""
+    memory: int = 1
+    """Observations that an adversary acts on, the newest included."""
     budget: Annotated[str | None, _shown_as(metavar="TIME")] = None
     """Fit the preset to a time: 90s, 30m, 2h."""
     json: bool = False
@@ -109,8 +111,8 @@ def _measure(options: FrontierCommand) -> int:
             listener.say(f"preparing {options.robot} on {options.task} (preset {preset.name})")
             frontier = measure(
                 options.task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
-                lambdas=lambdas, human=options.human, canonical=options.canonical,
-                listener=listener,
+                lambdas=lambdas, memory=options.memory, human=options.human,
+                canonical=options.canonical, listener=listener,
             )  # fmt: skip
             report = options.out / "report.html"
             if not report.exists():

@@ -182,7 +182,7 @@ def _save(
         directory = inputs.directory / "adversaries" / plan.member(index)
         directory.mkdir(parents=True, exist_ok=True)
         save_policy(
-            GaussianPolicy(adversary.learner.policy),
+            GaussianPolicy(adversary.learner.policy, memory=inputs.settings.memory),
             directory,
             agent="human",
             task=inputs.task.describe(),

@@ -65,6 +65,7 @@ def measure_robot(
     out: Path,
     seeds: Sequence[int] | None = None,
     lambdas: Sequence[float] | None = None,
+    memory: int = 1,
     listener: Listener | None = None,
 ) -> Frontier:
     """Measures a robot into `out`, or goes on where an earlier call stopped.
@@ -75,6 +76,7 @@ def measure_robot(
         out: Run directory.
         seeds: Search seeds instead of the preset's; those that `out` already has stay.
         lambdas: Exactly these λ, without refinement; 0 and inf are allowed.
+        memory: Observations that an adversary acts on.
         listener: Told of progress.
 
     Raises:
@@ -82,7 +84,7 @@ def measure_robot(
     """
     listener = listener or Silence()
     clock = Clock()
-    settings = settings_for(preset)
+    settings = settings_for(preset, memory)
     chosen, lambdas = seeds_of(preset, seeds), lambdas_of(lambdas)
     check_place(out)
     prepared = prepare(subject, preset, settings)

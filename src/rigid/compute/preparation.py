@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -205,9 +205,11 @@ def _identity(
     return dict(json.loads(json.dumps(identity)))  # As JSON gives it back: lists for tuples.
 
 
-def settings_for(preset: Preset) -> AdversarySettings:
+def settings_for(preset: Preset, memory: int = 1) -> AdversarySettings:
     """The adversary's settings under a preset's budget."""
-    return replace(AdversarySettings(), iterations=preset.iterations, episodes=preset.episodes)
+    if memory < 1:
+        raise UserError(f"memory is {memory}, but an adversary sees at least 1 observation")
+    return AdversarySettings(iterations=preset.iterations, episodes=preset.episodes, memory=memory)
 
 
 def lambdas_of(lambdas: Sequence[float] | None) -> tuple[float, ...] | None:

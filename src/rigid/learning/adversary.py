@@ -34,7 +34,13 @@ from rigid.naturalness.lsgan import (
     update_discriminator,
 )
 from rigid.naturalness.standardise import canonical_scale, standardise
-from rigid.policies.gaussian import GaussianParameters, group_mean_action
+from rigid.policies.gaussian import (
+    GaussianParameters,
+    group_mean_action,
+    history_windows,
+    stack_history,
+    with_memory,
+)
 from rigid.policies.networks import init_mlp
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task, World
@@ -48,6 +54,9 @@ class AdversarySettings:
     """Paper, appendix 'Computational Complexity'."""
     episodes: int = 48
     """Episodes of one iteration: 4,800 steps (paper, same place)."""
+    memory: int = 1
+    """Observations that the adversary acts on, the newest included (the paper's human acts on local
+    histories; one is enough where the observation tells the state)."""
     penalty: str = "amp"
     """Which function of the score is penalised: `amp` or `paper_d2`."""
     natural_start: float = 0.3
@@ -131,7 +140,7 @@ def start_adversary(
     """A fresh adversary and its discriminator, before any step."""
     policy_key, critic_key, discriminator_key = jax.random.split(key, 3)
     canonical = canonical_rows(opponent)
-    human = opponent.human
+    human = with_memory(opponent.human, settings.memory)
     sizes = [human.network[0]["w"].shape[0], *(layer["w"].shape[1] for layer in human.network)]
     if lambda_ < settings.natural_start:
         human = human._replace(network=init_mlp(policy_key, sizes, last_scale=0.01))
@@ -160,12 +169,23 @@ def canonical_rows(opponent: Opponent) -> Float[Array, "n f"]:
 def group_actor(
     policies: Sequence[GaussianParameters], rng: np.random.Generator
 ) -> Callable[[Float[np.ndarray, "GN o"]], Float[np.ndarray, "GN a"]]:
-    """Acts for G adversaries at once; their worlds follow one another in G equal blocks."""
+    """Acts for G adversaries at once; their worlds follow one another in G equal blocks.
+
+    For one set of episodes: an adversary with memory carries what it saw from step to step.
+    """
     stacked: GaussianParameters = jax.tree.map(lambda *leaves: jnp.stack(leaves), *policies)
     std = np.exp(np.asarray(stacked.log_std))[:, None]
+    width = policies[0].normaliser.mean.size
+    past: np.ndarray | None = None
 
     def act(observation: np.ndarray) -> np.ndarray:
-        grouped = observation.reshape(len(policies), -1, observation.shape[-1])
+        nonlocal past
+        rows, size = observation.shape
+        if past is None:
+            past = np.full((rows, width - size), np.nan, np.float32)
+        window = stack_history(observation, past)
+        past = window[:, : width - size]
+        grouped = window.reshape(len(policies), -1, width)
         mean = np.asarray(group_mean_action(stacked, grouped))
         noise = rng.standard_normal(mean.shape, dtype=np.float32)
         return np.asarray(mean + std * noise).reshape(-1, mean.shape[-1])
@@ -199,12 +219,13 @@ def train_iteration(
     )
     canonical = canonical_rows(opponent)
     features = standardise(canonical_scale(opponent.canonical), episodes.features)
+    seen = history_windows(episodes.human_observation, settings.memory)
     key = jax.random.fold_in(jax.random.key(seed), iteration)
     results = []
     for index, adversary in enumerate(group):
         mine = slice(index * settings.episodes, (index + 1) * settings.episodes)
         own = (
-            episodes.human_observation,
+            seen,
             episodes.human_action,
             episodes.reward / opponent.reward_std,
             episodes.weight,
@@ -214,11 +235,11 @@ def train_iteration(
         updated, metrics = _update(
             adversary, experience, canonical, jax.random.fold_in(key, index), settings=settings
         )
-        seen = metrics._replace(
+        observed = metrics._replace(
             mean_return=episodes.returns[mine].mean(),
             success=np.mean(episodes.summary.success[mine]),
         )
-        results.append((updated, seen))
+        results.append((updated, observed))
     return results
 
 

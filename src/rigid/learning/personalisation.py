@@ -14,12 +14,16 @@ from itertools import pairwise
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
 
 from rigid.learning.cooptimisation import Progress
 from rigid.learning.ppo import Learner, PPOSettings, Rollout, init_learner, ppo_update, with_noise
 from rigid.learning.rollout import Trajectories, play, policy_actor
-from rigid.policies.gaussian import GaussianParameters, GaussianPolicy, mean_action
+from rigid.policies.gaussian import (
+    GaussianParameters,
+    GaussianPolicy,
+    history_windows,
+    mean_action,
+)
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task, World
 
@@ -172,12 +176,3 @@ def _rollout(
         weight=jnp.asarray(episodes.weight),
         expert_action=jnp.asarray(target),
     )
-
-
-def history_windows(
-    observation: Float[np.ndarray, "T N o"], memory: int
-) -> Float[np.ndarray, "T N window"]:
-    """The last `memory` observations at every step, newest first; the first one is repeated."""
-    steps = np.arange(len(observation))
-    blocks = [observation[np.maximum(steps - age, 0)] for age in range(memory)]
-    return np.concatenate(blocks, axis=-1)

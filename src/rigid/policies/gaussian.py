@@ -118,6 +118,28 @@ def stack_history(
     return window
 
 
+def history_windows(
+    observation: Float[np.ndarray, "T N o"], memory: int
+) -> Float[np.ndarray, "T N window"]:
+    """The last `memory` observations at every step, newest first; the first one is repeated."""
+    steps = np.arange(len(observation))
+    blocks = [observation[np.maximum(steps - age, 0)] for age in range(memory)]
+    return np.concatenate(blocks, axis=-1)
+
+
+def with_memory(parameters: GaussianParameters, memory: int) -> GaussianParameters:
+    """A memoryless policy that is given its last `memory` observations, and acts as before."""
+    first, *rest = parameters.network
+    size = first["w"].shape[0]
+    weights = jnp.zeros((size * memory, first["w"].shape[1])).at[:size].set(first["w"])
+    mean, variance, count = parameters.normaliser
+    return GaussianParameters(
+        [first | {"w": weights}, *rest],
+        parameters.log_std,
+        Normaliser(jnp.tile(mean, memory), jnp.tile(variance, memory), count),
+    )
+
+
 @jax.jit
 def group_mean_action(
     parameters: GaussianParameters, observation: Float[Array, "G B o"]

@@ -21,7 +21,6 @@ def test_the_straight_arm_reaches_as_high_as_the_published_one(task, arm):
     assert position[2] - base[2] == pytest.approx(1.2603, abs=1e-4)
 
 
-@pytest.mark.xfail(reason="zeros of joints 3 and 5 are half a turn off", strict=True)
 def test_a_start_found_by_the_original_lies_in_the_goal_box(arm):
     # Printed by the running original, to two decimals.
     position, rotation = arm.pose(np.array([1.65, 1.68, 5.16, 2.07, 3.21, 1.19, 2.06]))
@@ -67,9 +66,9 @@ def test_every_start_lies_in_the_goal_box_with_the_palm_towards_the_arm(task, ar
     assert turns.max() < np.deg2rad(1)
 
 
-def test_starts_lie_within_the_joint_limits(task, arm):
+def test_starts_leave_every_joint_room_to_its_limits(task, arm):
     room = np.minimum(task.starts - arm.limits[:, 0], arm.limits[:, 1] - task.starts)
-    assert room.min() > -1e-6  # Stored in single precision.
+    assert room.min() > 0.14
 
 
 def test_neighbouring_links_do_not_touch_at_any_start(task):

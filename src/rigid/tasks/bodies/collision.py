@@ -2,7 +2,8 @@
 
 MuJoCo lets two geoms collide when `contype` of one meets `conaffinity` of the other, so every
 unordered pair of roles is listed once. Naming the pairs keeps the contact count low (about three
-active contacts a step) and makes the omissions visible.
+active contacts a step) and makes the omissions visible. Links of the robot that are not neighbours
+stay 5 cm apart, and the tool 15 cm from forearm and wrist, in every pose within the joint limits.
 """
 
 from __future__ import annotations

@@ -24,7 +24,9 @@ def add_scratcher(hand: mujoco.MjsBody) -> None:
     handle_middle = 0.02  # [m], offset of the handle from the end effector.
     shapes = (
         (HANDLE_GEOM, mujoco.mjtGeom.mjGEOM_BOX, (0.025, 0.025, 0.025), handle_middle, 0.1),
-        (ROD_GEOM, mujoco.mjtGeom.mjGEOM_CAPSULE, (0.01, 0.025, 0), handle_middle + 0.05, 0.1),
+        # A capsule inside the original's cylinder; it ends behind the tip, so that a touch of the
+        # tip is one contact.
+        (ROD_GEOM, mujoco.mjtGeom.mjGEOM_CAPSULE, (0.01, 0.015, 0), handle_middle + 0.05, 0.1),
         (TIP_GEOM, mujoco.mjtGeom.mjGEOM_SPHERE, (0.01, 0, 0), _TIP_REACH, 0.1),
     )
     for name, kind, size, along, mass in shapes:

@@ -73,7 +73,9 @@ def observe(
         [poses.tip[:, None], poses.arm, itch[:, None]], axis=1
     )  # [B, 5, 3]: tip, shoulder, elbow, wrist, itch.
     seen = np.matmul(points - np.array(wheelchair.JACO_MOUNT), _ROBOT_FROM_WORLD.as_matrix().T)
-    robot = [seen[:, 0], poses.tip_quaternion, robot_angles, seen[:, 1:4].reshape(batch, 9)]
+    turned = Rotation.from_quat(poses.tip_quaternion, scalar_first=True)
+    quaternion = (_ROBOT_FROM_WORLD * turned).as_quat(scalar_first=True)
+    robot = [seen[:, 0], quaternion, robot_angles, seen[:, 1:4].reshape(batch, 9)]
     robot.append(forces[:, :1])
     if itch_visible:
         robot += [seen[:, 0] - seen[:, 4], seen[:, 4]]

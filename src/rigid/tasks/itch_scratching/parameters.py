@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from math import inf
 from statistics import NormalDist
 from typing import Literal
 
@@ -79,6 +80,9 @@ class ItchScratchingParameters:
         _require(self.horizon >= 1, "horizon", self.horizon, "at least 1 step")
         _require(0 < self.physics_step <= 0.02, "physics_step", self.physics_step, "in (0, 0.02] s")
         _require(self.substeps >= 1, "substeps", self.substeps, "at least 1")
+
+        for name, weight in asdict(self.weights).items():
+            _require(0 <= weight < inf, f"weights.{name}", weight, "a number from 0 on")
 
     @property
     def body_size(self) -> BodySize:

@@ -7,8 +7,10 @@ import mujoco
 from rigid.tasks.bodies import human, jaco, scratcher, wheelchair
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
 
-CONTACTS_PER_PART = 3
+CONTACTS_PER_PART = 6
 """Contacts kept for each body part; normal forces are summed, the strongest are kept."""
+FRICTION = 0.25
+"""Sliding friction of every contact: the original gives each link 0.5, and Bullet multiplies."""
 
 _PARTS = human.ARM_PARTS + human.TRUNK_PARTS
 CONTACT_TIME = 0.04
@@ -54,6 +56,7 @@ def build_spec(parameters: ItchScratchingParameters) -> mujoco.MjSpec:
     scratcher.add_scratcher(hand)
     for geom in spec.geoms:
         geom.solref[0] = CONTACT_TIME
+        geom.friction[0] = FRICTION  # MuJoCo takes the larger of the two.
     for joint in spec.joints:
         joint.solref_limit[0] = CONTACT_TIME
     for limb in LIMBS:

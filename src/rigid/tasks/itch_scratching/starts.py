@@ -30,6 +30,7 @@ GOAL_ROTATION = Rotation.from_euler("y", np.pi / 2)
 """The palm points along +x, at the person's right arm."""
 COUNT = 256
 _SEED = 20231106  # Ours: any fixed number.
+_ROOM = 0.15  # [rad], ours: a start is dropped when a joint is closer to its limit.
 _CLEARANCE = 0.01  # [m], ours: a start is dropped when anything of the robot is closer.
 
 
@@ -80,6 +81,10 @@ class ArmKinematics:
             return None
         return self._wrapped(fit.x)
 
+    def room(self, angles: Float[np.ndarray, "7"]) -> float:
+        """Least distance of a joint to its limit [rad]."""
+        return float(np.minimum(angles - self.limits[:, 0], self.limits[:, 1] - angles).min())
+
     def _wrapped(self, angles: np.ndarray) -> np.ndarray:
         """The same pose with every joint that can turn right round in [-π, π)."""
         turns = self.limits[:, 1] >= 2 * np.pi - 1e-6
@@ -110,8 +115,7 @@ def dexterity(arm: ArmKinematics, angles: Float[np.ndarray, "7"]) -> float:
     site = arm.model.site(jaco.END_EFFECTOR_SITE).id
     mujoco.mj_jacSite(arm.model, arm.data, jacobian, None, site)
     columns = jacobian[:, arm.address]
-    room = np.min(np.minimum(angles - arm.limits[:, 0], arm.limits[:, 1] - angles))
-    return float(np.sqrt(np.linalg.det(columns @ columns.T)) * min(room, 1.0))
+    return float(np.sqrt(np.linalg.det(columns @ columns.T)) * min(arm.room(angles), 1.0))
 
 
 def solve_starts(parameters: ItchScratchingParameters, count: int, seed: int) -> np.ndarray:
@@ -126,7 +130,9 @@ def solve_starts(parameters: ItchScratchingParameters, count: int, seed: int) ->
     while len(starts) < count:
         goal = GOAL + rng.uniform(-GOAL_SPREAD, GOAL_SPREAD, 3)
         angles = arm.solve(goal, branch)
-        if angles is not None and arm.clear(angles) and np.abs(angles - branch).max() < 1.0:
+        if angles is None or not arm.clear(angles) or arm.room(angles) < _ROOM:
+            continue
+        if np.abs(angles - branch).max() < 1.0:
             starts.append(angles)
     return np.array(starts)
 

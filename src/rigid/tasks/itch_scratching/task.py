@@ -19,9 +19,10 @@ from rigid.tasks.itch_scratching.starts import clear_starts
 from rigid.tasks.itch_scratching.world import ItchScratchingWorld
 from rigid.tasks.protocol import AgentSpec, Step
 
-RETURN_RANGE = (-110.0, 450.0)
+RETURN_RANGE = (-270.0, 450.0)
 """Returns that map to adversarialness 1 and 0, frozen for version 0: the rounded mean returns of
-λ = 0 at paper budget (-111, seed 0) and of canonical play (451), both with `builtin:vanilla`."""
+λ = 0 (`rigid frontier --preset paper --lambdas 0`: -91, -356 and -368) and of canonical play (454),
+both with `builtin:vanilla`."""
 
 
 class ItchScratching:

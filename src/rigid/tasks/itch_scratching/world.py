@@ -76,6 +76,8 @@ class ItchScratchingWorld:
 
     def reset(self, seeds: Int[np.ndarray, " B"]) -> Step:
         """Starts an episode in every world; the same seed gives the same start in any world."""
+        if len(seeds) != self.batch:
+            raise ValueError(f"{self.batch} worlds need as many seeds, not {len(seeds)}")
         self._begin(np.asarray(seeds))
         self._put_at_start(np.arange(self.batch, dtype=np.int32))
         poses = self._sensors.poses(self._sensordata.copy())
@@ -135,6 +137,7 @@ class ItchScratchingWorld:
             contacts=contacts,
         )
         alive = ~self.faulted
+        terms = {name: value * alive for name, value in terms.items()}
         self.counted += counted & alive
         self.contact_steps += contacts.itch_touched & alive
         self._unwanted_steps += contacts.touched_unwanted & alive
@@ -142,7 +145,7 @@ class ItchScratchingWorld:
         self._peak_force = np.maximum(self._peak_force, force.max(axis=1) * alive)
         self._impulse += force.sum(axis=1) * self._parameters.physics_step * alive
         forces = np.stack([contacts.tool_force, force[:, -1], contacts.force_itch[:, -1]], axis=1)
-        reward = np.sum(list(terms.values()), axis=0) * alive
+        reward = np.sum(list(terms.values()), axis=0)
         info = {
             **{f"reward_{name}": value for name, value in terms.items()},
             "distance": distance,
