@@ -11,12 +11,19 @@ from rigid.errors import UserError
 from rigid.frontier.result import Frontier, load_frontier, measured_points
 
 POINT = {
-    "id": "s0-r1-l1", "seed": 0, "naturalness": 0.9, "naturalness_own": None,
-    "adversarialness": 0.5, "faults": 1, "episodes": 200,
+    "id": "s0-r1-l1", "seed": 0, "round": 1, "lambda": 0.1, "naturalness": 0.9,
+    "naturalness_own": None, "naturalness_all": {"step_k4": 0.9, "window16_k4": None},
+    "adversarialness": 0.5, "return": 90.0, "success": None, "outcomes": {"helped": None},
+    "peak_force": None, "impulse": None, "faults": 1, "episodes": 200, "converged": True,
+    "on_frontier": True,
 }  # fmt: skip
 DATA = {
-    "schema": 1, "points": [POINT], "worst_at": {"0.9": 0.5}, "auc": 0.6, "auc_natural": 0.4,
-    "auc_interval": [0.5, 0.7],
+    "schema": 1, "task": "reach", "robot": "mine", "preset": "demo", "points": [POINT],
+    "canonical": {"success": 1.0, "return": 100.0, "adversarialness": 0.0, "episodes": 40,
+                  "source": "synthetic"},
+    "worst_at": {"0.9": 0.5}, "worst_at_interval": {"0.9": None}, "auc": 0.6, "auc_natural": 0.4,
+    "auc_interval": [0.5, 0.7], "auc_by_seed": {"0": 0.6}, "return_range": [0.0, 100.0],
+    "env_steps": 1000, "core_seconds": 2.0, "wall_seconds": 1.0,
 }  # fmt: skip
 
 
@@ -46,17 +53,33 @@ def test_a_run_without_a_result_says_how_to_finish_it(tmp_path):
         load_frontier(tmp_path)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "3", "{}"])
+@pytest.mark.parametrize("text", ["", "{", "\xff"])
 def test_a_damaged_result_says_to_delete_it(tmp_path, text):
     (tmp_path / "frontier.json").write_text(text)
     with pytest.raises(UserError, match=r"frontier\.json is damaged: delete it and run"):
         load_frontier(tmp_path)
 
 
-@pytest.mark.parametrize("data", [{**DATA, "schema": 2}, {"schema": 1}], ids=["newer", "empty"])
-def test_another_schema_is_named(tmp_path, data):
-    with pytest.raises(UserError, match=r"is not a frontier of schema 1: delete it"):
+FOREIGN = {
+    "newer": ({**DATA, "schema": 2}, "schema: Input should be 1"),
+    "empty": ({"schema": 1}, "task: Field required"),
+    "a list": ([], "Input should be a valid dictionary"),
+    "no anchor": ({**DATA, "canonical": None}, "canonical: Input should be a valid dictionary"),
+    "no seed": ({**DATA, "auc_by_seed": {}}, "auc_by_seed: Dictionary should have at least 1"),
+    "off the axis": (
+        {**DATA, "points": [{**POINT, "naturalness": 1.5}]},
+        "points.0.naturalness: Input should be less than or equal to 1",
+    ),
+}
+
+
+@pytest.mark.parametrize(("data", "fault"), FOREIGN.values(), ids=FOREIGN)
+def test_another_schema_is_refused_with_its_first_fault(tmp_path, data, fault):
+    with pytest.raises(
+        UserError, match=r"is not a frontier of schema 1 \(.*\): delete it"
+    ) as error:
         stored(tmp_path, data)
+    assert fault in str(error.value)
 
 
 def test_points_become_what_the_statistics_take():

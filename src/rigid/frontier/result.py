@@ -74,12 +74,26 @@ def load_frontier(directory: Path | str) -> Frontier:
     again = f"delete it and {cure}; what is trained is kept"
     try:
         data = json.loads(read_bytes(path, cure=cure))
-        known = data["schema"] == 1 and {"points", "worst_at", "auc"} <= data.keys()
-    except (ValueError, KeyError, TypeError):
+    except ValueError:
         raise UserError(f"{path} is damaged: {again}") from None
-    if not known:
-        raise UserError(f"{path} is not a frontier of schema 1: {again}")
+    wrong = _first_fault(data)
+    if wrong is not None:
+        raise UserError(f"{path} is not a frontier of schema 1 ({wrong}): {again}")
     return Frontier(folder, data)
+
+
+def _first_fault(data: object) -> str | None:
+    """Where `data` departs from the schema, None where it does not."""
+    from pydantic import ValidationError  # Here, since it takes longer than all the rest.
+
+    from rigid.frontier.schema import FrontierFile
+
+    try:
+        FrontierFile.model_validate(data)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        return f"{'.'.join(str(part) for part in first['loc'])}: {first['msg']}"
+    return None
 
 
 def measured_points(points: Sequence[Mapping[str, Any]]) -> list[MeasuredPoint]:

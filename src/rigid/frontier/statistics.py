@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Real
-from scipy.special import stdtrit
 
 from rigid.frontier.curve import (
     Anchor,
@@ -26,6 +25,13 @@ from rigid.frontier.curve import (
     non_dominated,
     worst_at,
 )
+from rigid.frontier.intervals import (
+    Interval,
+    bca_interval,
+    check_confidence,
+    t_ends,
+    t_interval,
+)
 
 NATURALNESS_LEVELS = (0.8, 0.9, 0.95)
 """Thresholds of `worst_at`."""
@@ -33,27 +39,8 @@ NATURALNESS_LEVELS = (0.8, 0.9, 0.95)
 MAX_FAULTED_SHARE = 0.01
 """A point with a larger share of faulted episodes is not on the frontier."""
 
-BCA_MIN_SEEDS = 30
-"""Fewer seeds make BCa too narrow: its "95 %" interval covers 90 % at n = 10."""
 
-_Values = Real[np.ndarray, " n"] | Sequence[float | int]
 _Grid = Real[np.ndarray, " g"] | Sequence[float | int]
-_Seed = TypeVar("_Seed", int, str)
-
-
-class Interval(NamedTuple):
-    """A confidence interval, low <= high, in the unit of what it brackets."""
-
-    low: float
-    high: float
-
-
-class PairedDifference(NamedTuple):
-    """Mean of a - b over the seeds that both have, and its interval (None for one seed)."""
-
-    mean: float
-    interval: Interval | None
-    seeds: tuple[int | str, ...]
 
 
 class Band(NamedTuple):
@@ -115,79 +102,6 @@ class Summary:
         return block
 
 
-def t_interval(
-    values: _Values, confidence: float = 0.95, bounds: tuple[float, float] = (0.0, 1.0)
-) -> Interval | None:
-    """Returns Student's t interval of the mean, clipped to `bounds`; None for one value.
-
-    Ours: with 3 seeds a percentile bootstrap "95 %" interval covers 73 %, the t interval 95 %.
-
-    Raises:
-        ValueError: `values` are empty, not one row or not finite; or `confidence` is not in (0, 1).
-
-    Example:
-        >>> low, high = t_interval([0.4, 0.5, 0.6])
-        >>> round(low, 3), round(high, 3)
-        (0.252, 0.748)
-    """
-    row = _checked_values(values)
-    _check_confidence(confidence)
-    if len(row) == 1:
-        return None
-    low, high = _t_ends(row, confidence, bounds).tolist()
-    return Interval(low, high)
-
-
-def bca_interval(
-    values: _Values, rng: np.random.Generator, confidence: float = 0.95
-) -> Interval | None:
-    """Returns the BCa bootstrap interval of the mean; None below `BCA_MIN_SEEDS` values.
-
-    Args:
-        values: One value per seed. Shape (n,).
-        rng: Source of the resamples; the same generator state gives the same interval.
-        confidence: Nominal cover, in (0, 1).
-
-    Raises:
-        ValueError: As `t_interval`.
-    """
-    row = _checked_values(values)
-    _check_confidence(confidence)
-    if len(row) < BCA_MIN_SEEDS:
-        return None
-    if np.ptp(row) < 1e-12:  # BCa is undefined when all resamples agree.
-        return Interval(float(row.mean()), float(row.mean()))
-    # Here, since this import takes longer than all the rest and most runs have fewer seeds.
-    from scipy.stats import bootstrap
-
-    ends = bootstrap((row,), np.mean, confidence_level=confidence, method="BCa", rng=rng)
-    return Interval(float(ends.confidence_interval.low), float(ends.confidence_interval.high))
-
-
-def paired_difference(
-    a_by_seed: Mapping[_Seed, float], b_by_seed: Mapping[_Seed, float], confidence: float = 0.95
-) -> PairedDifference:
-    """Compares two robots on the search seeds they share: mean of a - b with its t interval.
-
-    Ours: what a seed finds is alike for both robots, so differences vary less than values. The
-    interval is clipped to [-1, 1], the range of a difference of two shares.
-
-    Raises:
-        ValueError: No seed is common to both, or a value is not finite.
-
-    Example:
-        >>> mean, interval, seeds = paired_difference({0: 0.5, 1: 0.7}, {1: 0.6, 2: 0.9})
-        >>> round(mean, 3), interval, seeds
-        (0.1, None, (1,))
-    """
-    seeds = tuple(seed for seed in a_by_seed if seed in b_by_seed)
-    if not seeds:
-        raise ValueError(f"no common seed: a has {list(a_by_seed)}, b has {list(b_by_seed)}")
-    differences = np.array([a_by_seed[seed] - b_by_seed[seed] for seed in seeds])
-    interval = t_interval(differences, confidence, bounds=(-1.0, 1.0))
-    return PairedDifference(float(differences.mean()), interval, seeds)
-
-
 def sound_points_by_seed(
     points: Sequence[MeasuredPoint], seeds: Sequence[int]
 ) -> dict[int, Float[np.ndarray, "n 2"]]:
@@ -230,11 +144,11 @@ def interval_band(
             f"points and anchors must have the same seeds, at least one: "
             f"{sorted(points_by_seed)} and {sorted(anchors)}"
         )
-    _check_confidence(confidence)
+    check_confidence(confidence)
     hulls = np.array([hull_at(p, grid, anchors[seed]) for seed, p in points_by_seed.items()])
     if len(hulls) == 1:
         return Band(hulls[0], None, None)
-    return Band(hulls.mean(axis=0), *_t_ends(hulls, confidence, (0.0, 1.0)))
+    return Band(hulls.mean(axis=0), *t_ends(hulls, confidence, (0.0, 1.0)))
 
 
 def summarize_seeds(
@@ -323,29 +237,3 @@ def _t(by_seed: Mapping[str, float]) -> Interval | None:
 
 def _bca(by_seed: Mapping[str, float], rng: np.random.Generator) -> Interval | None:
     return bca_interval(list(by_seed.values()), rng)
-
-
-def _checked_values(values: object) -> Float[np.ndarray, " n"]:
-    row = np.asarray(values, dtype=float)
-    if row.ndim != 1 or not len(row):
-        raise ValueError(f"values must be one row with at least one value, got shape {row.shape}")
-    if not np.isfinite(row).all():
-        raise ValueError(f"values must be finite, got {row.tolist()}")
-    return row
-
-
-def _check_confidence(confidence: float) -> None:
-    if not 0.0 < confidence < 1.0:
-        raise ValueError(f"confidence must lie in (0, 1), got {confidence}")
-
-
-def _t_ends(
-    values: Float[np.ndarray, "n ..."], confidence: float, bounds: tuple[float, float]
-) -> Float[np.ndarray, "2 ..."]:
-    """Returns both ends of the t interval of the mean over the first axis, n >= 2."""
-    n = len(values)
-    quantile = stdtrit(n - 1, (1.0 + confidence) / 2.0)
-    mean = values.mean(axis=0)
-    reach = quantile * values.std(axis=0, ddof=1) / np.sqrt(n)
-    ends: Float[np.ndarray, "2 ..."] = np.clip([mean - reach, mean + reach], *bounds)
-    return ends

@@ -56,6 +56,20 @@ def test_the_right_arm_starts_where_the_original_has_it(person, body):
     np.testing.assert_allclose(points, MEASURED[body], atol=6e-4)  # Printed in millimetres.
 
 
+def test_actions_are_in_the_order_of_the_originals_joints():
+    assert human.ARM_JOINTS == tuple(LIMITS_DEG)
+
+
+@pytest.mark.parametrize(("joint", "moves"), [("elbow", 0.29), ("forearm_roll", 0.0)])
+def test_a_bent_elbow_carries_the_wrist_and_a_rolled_forearm_does_not(task, joint, moves):
+    data = posed(task)
+    before = data.body("right_hand").xpos.copy()
+    data.qpos[task.model.joint(joint).qposadr[0]] += np.deg2rad(60)  # A chord as long as the arm.
+    mujoco.mj_kinematics(task.model, data)
+    moved = np.linalg.norm(data.body("right_hand").xpos - before)
+    assert moved == pytest.approx(moves, abs=1e-6)
+
+
 def test_limits_and_axes_of_the_arm(task):
     for name in human.ARM_JOINTS:
         joint = task.model.joint(name)

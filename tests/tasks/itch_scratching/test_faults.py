@@ -6,7 +6,6 @@ import pytest
 
 from tests.tasks.scripted import random_actions
 
-pytestmark = pytest.mark.usefixtures("quiet_faults")
 RUNAWAYS = {"nan": np.nan, "infinite": np.inf, "fast": 60.0, "huge": 1e12}
 
 
@@ -27,6 +26,25 @@ def spoiled(value, field="qvel"):
         batch.bind(field)[1, 12] = value
 
     return spoil
+
+
+def test_a_runaway_world_leaves_no_log_file_behind(task, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    world, _ = play(task, spoiled(np.nan))
+    assert world.faulted.any()
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_reward_terms_of_a_faulted_world_are_nothing(task):
+    _, rows = play(task, spoiled(np.nan))
+    terms = [value for name, value in rows[-1].info.items() if name.startswith("reward_")]
+    assert np.any([term[0] != 0 for term in terms])
+    assert not np.any([term[1] for term in terms])
+
+
+def test_a_reset_takes_a_seed_for_every_world(task):
+    with pytest.raises(ValueError, match="4 worlds need as many seeds, not 3"):
+        task.make_world(4).reset(np.arange(3))
 
 
 @pytest.mark.parametrize("value", RUNAWAYS.values(), ids=RUNAWAYS.keys())

@@ -39,6 +39,9 @@ class ItchScratchingWorld:
         self.batch, self._task = batch, task
         self._parameters = task.parameters
         model = task.model
+        if mujoco.get_mju_user_warning() is None:
+            # Faults are counted here; MuJoCo would log each to a file in the working directory.
+            mujoco.set_mju_user_warning(lambda _: None)
         self._batch = Batch(model, batch, threads)
         # Bound before the first call: a field that is bound later reads 0 until the next one.
         self._sensordata = self._batch.bind("sensordata")
