@@ -14,7 +14,9 @@ from typing import Annotated, Any, Protocol, runtime_checkable
 
 import tyro
 
+from rigid.commands.comparing import CompareCommand, GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
+from rigid.commands.parsing import printable
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.training import TrainCommand
 from rigid.errors import UserError
@@ -31,6 +33,8 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "demo": DemoCommand,
     "frontier": FrontierCommand,
     "report": ReportCommand,
+    "compare": CompareCommand,
+    "gate": GateCommand,
     "train": TrainCommand,
     "record": RecordCommand,
     "evaluate": EvaluateCommand,
@@ -55,7 +59,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     try:
         return command.run()
     except UserError as error:
-        print(f"rigid: {error}", file=sys.stderr)
+        print(f"rigid: {printable(str(error))}", file=sys.stderr)
         return error.exit_code
     except KeyboardInterrupt as interrupt:
         how = str(interrupt) or "the same command goes on"

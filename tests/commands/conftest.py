@@ -23,6 +23,14 @@ def small_run(base):
     return measured_once(base, "small")
 
 
+@pytest.fixture(scope="session")
+def single_run(base):
+    """The first seed of `small_run` alone; the one of tests/compute."""
+    from tests.compute.tiny import measured_once
+
+    return measured_once(base, "single", seeds=[0])
+
+
 @pytest.fixture
 def toys(base, monkeypatch):
     """Installs the toy task and the preset `tiny`; returns the folder of the toy pair."""

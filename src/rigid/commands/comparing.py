@@ -1,0 +1,202 @@
+"""`rigid compare` and `rigid gate`: robots against each other, and against a limit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import tyro
+
+from rigid.commands.parsing import printable
+from rigid.errors import UserError
+
+if TYPE_CHECKING:
+    from rigid.frontier.comparison import Number, Row
+    from rigid.frontier.intervals import Interval, PairedDifference
+
+_shown_as = tyro.conf.arg
+GATE_FAILED = 3
+
+
+@dataclass(frozen=True)
+class CompareCommand:
+    """Compare robots that were measured alike, paired by search seed; the first is the baseline.
+
+    Examples:
+      rigid compare runs/vanilla runs/mine
+      rigid compare runs/* --json > table.json
+    """
+
+    directories: Annotated[tuple[Path, ...], tyro.conf.Positional]
+    """Finished run directories, two or more."""
+    json: bool = False
+    """Print the table as JSON."""
+
+    def run(self) -> int:
+        """Prints the table."""
+        from rigid.frontier.comparison import compare
+
+        if len(self.directories) < 2:
+            raise UserError("compare takes two run directories or more")
+        names = _names(self.directories)
+        frontiers, identities = {}, {}
+        for name, directory in zip(names, self.directories, strict=True):
+            frontiers[name], identities[name] = _load(directory)
+        rows = compare(frontiers, identities)
+        print(json.dumps(_as_json(rows), indent=1) if self.json else table(rows))
+        return 0
+
+
+@dataclass(frozen=True)
+class GateCommand:
+    """Exit with 3 unless a robot is robust enough, by the upper bounds of its intervals.
+
+    Examples:
+      rigid gate runs/mine --max-worst 0.4 --at-naturalness 0.9
+      rigid gate runs/mine --baseline runs/last-release --margin 0.05
+    """
+
+    directory: Annotated[Path, tyro.conf.Positional]
+    """A finished run directory."""
+    max_worst: Annotated[float | None, _shown_as(metavar="Y")] = None
+    """Largest allowed worst adversarialness at --at-naturalness."""
+    at_naturalness: float = 0.9
+    """From which naturalness on --max-worst and --baseline look."""
+    max_auc: Annotated[float | None, _shown_as(metavar="AUC")] = None
+    """Largest allowed area under the frontier."""
+    baseline: Annotated[Path | None, _shown_as(metavar="DIR")] = None
+    """A measurement that this one may not be worse than, paired by search seed."""
+    margin: float = 0.0
+    """By how much it may be worse than the baseline."""
+
+    def run(self) -> int:
+        """Prints one line for each limit; 3 when one is exceeded."""
+        if not 0 <= self.at_naturalness <= 1:
+            raise UserError(f"--at-naturalness is {self.at_naturalness}, but must lie in [0, 1]")
+        verdicts = [*_absolute(self), *_against_baseline(self)]
+        if not verdicts:
+            raise UserError("name a limit: --max-worst, --max-auc or --baseline")
+        for fine, text in verdicts:
+            print(f"{'ok    ' if fine else 'FAILED'}  {text}")
+        return 0 if all(fine for fine, _ in verdicts) else GATE_FAILED
+
+
+def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
+    from rigid.frontier.comparison import numbers_of
+
+    numbers = numbers_of(_load(options.directory)[0], options.at_naturalness)
+    level = f"worst at naturalness ≥ {options.at_naturalness:g}"
+    for limit, key, label in (
+        (options.max_worst, "worst_at", level),
+        (options.max_auc, "auc", "AUC"),
+    ):
+        if limit is not None:
+            yield _within(label, numbers[key].mean, numbers[key].interval, limit)
+
+
+def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
+    from rigid.frontier.comparison import compare
+
+    if options.baseline is None:
+        return
+    frontiers, identities = {}, {}
+    for name, directory in (("baseline", options.baseline), ("robot", options.directory)):
+        frontiers[name], identities[name] = _load(directory)
+    against = compare(frontiers, identities, level=options.at_naturalness)[1].against
+    assert against is not None
+    level = f"worst at naturalness ≥ {options.at_naturalness:g}"
+    for key, label in (("worst_at", level), ("auc_natural", "area over [0.8, 1]")):
+        found = against[key]
+        yield _within(f"{label}, minus the baseline's", found.mean, found.interval, options.margin)
+
+
+def _within(label: str, mean: float, interval: Interval | None, limit: float) -> tuple[bool, str]:
+    """Whether the upper bound keeps the limit; without an interval nothing is known."""
+    if interval is None:
+        return False, f"{label}: {mean:.3f} from one seed has no upper bound; add --seeds"
+    fine = interval.high <= limit
+    return fine, f"{label}: {mean:.3f}, upper bound {interval.high:.3f}, limit {limit:g}"
+
+
+def _load(directory: Path) -> tuple[Any, Mapping[str, Any]]:
+    from rigid.compute.run_directory import RunDirectory, read_settings
+    from rigid.frontier.result import load_frontier
+
+    frontier = load_frontier(directory)
+    return frontier, read_settings(RunDirectory(directory))["identity"]
+
+
+def _names(directories: Sequence[Path]) -> list[str]:
+    """The last part of each path, or all of it where that is not enough to tell them apart."""
+    short = [directory.resolve().name for directory in directories]
+    names = short if len(set(short)) == len(short) else [str(path) for path in directories]
+    if len(set(names)) < len(names):
+        raise UserError("compare was given the same run directory twice")
+    return [printable(name) for name in names]
+
+
+def table(rows: Sequence[Row]) -> str:
+    """The comparison as text: numbers with intervals, then differences to the first robot."""
+    from rigid.frontier.comparison import HEADLINE_LEVEL, repeat_spread
+
+    width = max(len(row.name) for row in rows)
+    titles = {
+        "worst_at": f"worst at ≥ {HEADLINE_LEVEL}",
+        "auc_natural": "area over [0.8, 1]",
+        "auc": "AUC",
+    }
+    lines = [f"{'robot':{width}}  {'success':>7}" + "".join(f"  {t:>20}" for t in titles.values())]
+    for row in rows:
+        success = row.frontier.data["canonical"]["success"]
+        played = "–" if success is None else f"{success:.2f}"
+        cells = (f"  {_number(row.numbers[key]):>20}" for key in titles)
+        lines.append(f"{row.name:{width}}  {played:>7}" + "".join(cells))
+    lines += ["", f"minus {rows[0].name}, on the search seeds that both have"]
+    for row in rows[1:]:
+        assert row.against is not None
+        cells = (f"  {_difference(row.against[key]):>20}" for key in titles)
+        lines.append(f"{row.name:{width}}  {'':7}" + "".join(cells))
+    spreads = {key: repeat_spread(rows[0].numbers[key]) for key in titles}
+    known = [f"{spread:.3f} for {titles[key]}" for key, spread in spreads.items() if spread]
+    if known:
+        lines += ["", f"a repeat of {rows[0].name} may differ by {', '.join(known)} (95 %)"]
+    return "\n".join([*lines, "lower is more robust; estimates at this search power, not bounds"])
+
+
+def _number(number: Number) -> str:
+    return f"{number.mean:.3f}{_ends(number.interval)}"
+
+
+def _difference(found: PairedDifference) -> str:
+    return f"{found.mean:+.3f}{_ends(found.interval, '+.2f')}"
+
+
+def _ends(interval: Interval | None, form: str = ".2f") -> str:
+    return "" if interval is None else f" [{interval.low:{form}}, {interval.high:{form}}]"
+
+
+def _as_json(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    from rigid.frontier.comparison import repeat_spread
+
+    return [
+        {
+            "robot": row.name,
+            "directory": str(row.frontier.directory),
+            "success": row.frontier.data["canonical"]["success"],
+            "auc_paper_axis": row.frontier.data.get("auc_paper_axis"),
+            **{
+                key: {
+                    "mean": number.mean,
+                    "interval": number.interval,
+                    "by_seed": dict(number.by_seed),
+                    "repeat_spread": repeat_spread(number),
+                    "minus_baseline": None if row.against is None else row.against[key]._asdict(),
+                }
+                for key, number in row.numbers.items()
+            },
+        }
+        for row in rows
+    ]
