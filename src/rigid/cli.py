@@ -14,6 +14,7 @@ from typing import Annotated, Any, Protocol, runtime_checkable
 
 import tyro
 
+from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.comparing import CompareCommand, GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.parsing import printable
@@ -35,6 +36,7 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "report": ReportCommand,
     "compare": CompareCommand,
     "gate": GateCommand,
+    "bench": BenchCommand,
     "train": TrainCommand,
     "record": RecordCommand,
     "evaluate": EvaluateCommand,
