@@ -15,6 +15,7 @@ from typing import Annotated, Any, Protocol, runtime_checkable
 import tyro
 
 from rigid.commands.benchmarking import BenchCommand
+from rigid.commands.blaming import BlameCommand
 from rigid.commands.comparing import CompareCommand, GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.parsing import printable
@@ -36,6 +37,7 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "report": ReportCommand,
     "compare": CompareCommand,
     "gate": GateCommand,
+    "blame": BlameCommand,
     "bench": BenchCommand,
     "train": TrainCommand,
     "record": RecordCommand,

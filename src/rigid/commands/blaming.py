@@ -1,0 +1,74 @@
+"""`rigid blame`: could any robot have coped with the humans that were found?"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import tyro
+
+_shown_as = tyro.conf.arg
+
+
+@dataclass(frozen=True, kw_only=True)
+class BlameCommand:
+    """Train fresh robots against each harmful human on the frontier: was it this robot's fault?
+
+    About two minutes for each human on two cores; what is done is kept in DIR/blame.json.
+
+    Examples:
+      rigid blame runs/vanilla
+      rigid blame runs/vanilla --points s0-r1-l5,s0-r2-l4 --json
+    """
+
+    directory: Annotated[Path, tyro.conf.Positional]
+    """A finished run directory."""
+    robot: Annotated[str | None, _shown_as(metavar="ROBOT")] = None
+    """The measured robot, if it is no longer where it was."""
+    points: Annotated[str | None, _shown_as(metavar="IDS")] = None
+    """Points to look at, as s0-r1-l5,s0-r2-l4; by default all that are harmful on the frontier."""
+    json: bool = False
+    """Print blame.json on standard output."""
+
+    def run(self) -> int:
+        """Trains the responses and prints what they say."""
+        from rich.console import Console
+
+        from rigid.compute.blame import blame
+
+        console = Console(stderr=True)
+        names = None if self.points is None else [part.strip() for part in self.points.split(",")]
+        try:
+            found = blame(
+                self.directory, robot=self.robot, points=names,
+                say=lambda text: console.print(text, highlight=False, markup=False),
+            )  # fmt: skip
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(
+                f"the same command goes on in {self.directory}/blame.json"
+            ) from None
+        print(json.dumps(found, indent=1) if self.json else table(found))
+        return 0
+
+
+def table(found: Mapping[str, Mapping[str, Any]]) -> str:
+    """One line for each human, the worst regret first."""
+    if not found:
+        return "no point on the frontier does harm: nothing to blame"
+    lines = [f"{'point':12}  {'robot':>6}  {'best':>6}  {'regret':>6}  {'success':>14}  verdict"]
+    for name, entry in sorted(found.items(), key=lambda item: -item[1]["regret"]):
+        mine = entry["robot"]["adversarialness"]
+        success = f"{_share(entry['robot']['success'])} → {_share(entry['solvable'])}"
+        lines.append(
+            f"{name:12}  {mine:6.3f}  {mine - entry['regret']:6.3f}  {entry['regret']:6.3f}  "
+            f"{success:>14}  {entry['verdict']}"
+        )
+    lines.append("adversarialness with this robot, with the best response, and the difference")
+    return "\n".join(lines)
+
+
+def _share(value: float | None) -> str:
+    return "–" if value is None else f"{value:.2f}"

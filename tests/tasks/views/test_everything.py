@@ -1,0 +1,30 @@
+"""A robot that sees everything sees its own numbers first, then the human's."""
+
+import numpy as np
+
+from rigid.tasks.protocol import Task, World
+from rigid.tasks.views.everything import SeeingEverything
+from tests.tasks.scripted import random_actions
+
+
+def test_the_robot_sees_the_humans_numbers_after_its_own(task):
+    view = SeeingEverything(task)
+    world, plain = view.make_world(3, threads=1), task.make_world(3, threads=1)
+    assert isinstance(view, Task)
+    assert isinstance(world, World)
+    actions = random_actions(np.random.default_rng(0), 3)
+    for step, expected in (
+        (world.reset(np.arange(3)), plain.reset(np.arange(3))),
+        (world.step(*actions), plain.step(*actions)),
+    ):
+        own = task.robot.observation_size
+        np.testing.assert_array_equal(step.robot_observation[:, :own], expected.robot_observation)
+        np.testing.assert_array_equal(step.robot_observation[:, own:], expected.human_observation)
+        np.testing.assert_array_equal(step.human_observation, expected.human_observation)
+        assert step.robot_observation.shape[1] == view.robot.observation_size
+    np.testing.assert_array_equal(world.summary().outcome, plain.summary().outcome)
+    np.testing.assert_array_equal(world.snapshot(), plain.snapshot())
+
+
+def test_its_description_is_not_that_of_the_task(task):
+    assert SeeingEverything(task).describe() != task.describe()
