@@ -86,6 +86,16 @@ def test_click_on_a_mark_shows_its_numbers(page, payload):
     assert page.url.endswith(f"#human={point['id']}")
 
 
+def test_whose_fault_it_was_is_said_where_it_is_known(visit, tmp_path, payload):
+    chosen = dict(payload["frontier"]["points"][0], verdict="another policy copes", regret=0.25)
+    frontier = {**payload["frontier"], "points": [chosen]}
+    file = build_report({**payload, "frontier": frontier}, tmp_path / "report.html")
+    with visit(file) as page:
+        details = page.locator(".details").inner_text()
+    assert "a fresh robot" in details
+    assert "another policy copes regret 0.25" in " ".join(details.split())
+
+
 def test_human_without_stored_motion_says_so(page, payload):
     mark(page, payload["frontier"]["points"][0]["id"]).dispatch_event("click")
     assert page.get_by_text("No episode of this human was stored.").is_visible()

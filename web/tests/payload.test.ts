@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { COLUMNS, csv, sorted } from "../src/report/columns.js";
+import { COLUMNS, columnsOf, csv, sorted } from "../src/report/columns.js";
 import { panelsOf } from "../src/report/learning-panels.js";
 import { firstPoint, forcesArePhysical, headlineLevel, scalar, successUnderAttack, worstAt } from "../src/report/measures.js";
 import { readPayload, type Payload } from "../src/report/payload.js";
@@ -86,6 +86,12 @@ test("λ sorts with infinity last, ids by the numbers in them", () => {
   const { points } = payloadOf([point("s0-l10", 0, 0, { lambda: "inf" }), point("s0-l2", 0, 0, { lambda: 3 })]);
   assert.deepEqual(sorted(points, column("λ"), false).map((p) => p.id), ["s0-l2", "s0-l10"]);
   assert.deepEqual(sorted(points, column("human"), false).map((p) => p.id), ["s0-l2", "s0-l10"]);
+});
+
+test("regret has a column only where somebody asked whose fault it was", () => {
+  const names = (more: Raw) => columnsOf(payloadOf([point("a", 0.5, 0.5, more)]).points).map((c) => c.name);
+  assert.ok(!names({}).includes("regret"));
+  assert.ok(names({ regret: 0.2 }).includes("regret"));
 });
 
 test("the CSV has every field of every point, nested ones by dotted names", () => {

@@ -28,10 +28,17 @@ export const COLUMNS: readonly Column[] = [
   numeric("unwanted", (p) => p.outcomes?.unwanted ?? null, percent),
   numeric("peak force [N]", (p) => p.peakForce, (v) => fixed(v, 1)),
   numeric("impulse [N·s]", (p) => p.impulse, (v) => fixed(v, 1)),
+  numeric("regret", (p) => p.regret, fixed),
   numeric("faults", (p) => p.faults, (v) => fixed(v, 0)),
   { name: "converged", key: (p) => (p.converged === null ? null : Number(p.converged)), text: (p) => yes(p.converged), numeric: false },
   { name: "frontier", key: (p) => Number(p.onFrontier), text: (p) => yes(p.onFrontier), numeric: false },
 ];
+
+/** The columns to show: what nobody asked for (`rigid blame`) has none. */
+export function columnsOf(points: readonly Point[]): readonly Column[] {
+  const blamed = points.some((point) => point.regret !== null);
+  return COLUMNS.filter((column) => blamed || column.name !== "regret");
+}
 
 /** Points in the order of a column; unknown values come last either way, ties keep their order. */
 export function sorted(points: readonly Point[], column: Column, descending: boolean): Point[] {

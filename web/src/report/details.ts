@@ -35,7 +35,8 @@ function effect(point: Point, payload: Payload, physical: boolean): HTMLElement 
     entry("return", fixed(point.return, 1), `canonical ${fixed(canonical.return, 1)}`),
     entry("success", percent(point.success), `canonical ${percent(canonical.success)}`),
     entry("peak force", `${fixed(point.peakForce, 1)} N`, caveat),
-    entry("impulse", `${fixed(point.impulse, 1)} N·s`, caveat));
+    entry("impulse", `${fixed(point.impulse, 1)} N·s`, caveat),
+    point.verdict !== null && entry("a fresh robot", point.verdict, `regret ${fixed(point.regret)}`));
 }
 
 function naturalness(point: Point, payload: Payload): HTMLElement {

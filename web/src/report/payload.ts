@@ -32,6 +32,9 @@ export interface Point {
   readonly faults: number | null;
   readonly converged: boolean | null;
   readonly onFrontier: boolean;
+  /** Whether another robot would have coped (`rigid blame`); null where nobody asked. */
+  readonly verdict: string | null;
+  readonly regret: number | null;
   readonly raw: Dict;
 }
 
@@ -101,6 +104,8 @@ function readPoint(value: unknown, index: number): Point {
     faults: number(raw["faults"]),
     converged: typeof raw["converged"] === "boolean" ? raw["converged"] : null,
     onFrontier: raw["on_frontier"] === true,
+    verdict: typeof raw["verdict"] === "string" ? raw["verdict"] : null,
+    regret: number(raw["regret"]),
     raw,
   };
 }

@@ -2,11 +2,11 @@
 import { download } from "../base/download.js";
 import { button, caption, h, on } from "../base/dom.js";
 import type { Signal } from "../base/signal.js";
-import { COLUMNS, csv, sorted, type Column } from "./columns.js";
+import { columnsOf, csv, sorted, type Column } from "./columns.js";
 import type { Payload, Point } from "./payload.js";
 
-function row(point: Point, choose: (id: string) => void): HTMLTableRowElement {
-  const [first, ...rest] = COLUMNS;
+function row(point: Point, columns: readonly Column[], choose: (id: string) => void): HTMLTableRowElement {
+  const [first, ...rest] = columns;
   const name = h("th", { scope: "row" }, button(first?.text(point) ?? "", () => choose(point.id), { class: "link" }));
   const cells = rest.map((column) => h("td", { class: column.numeric ? "number" : "" }, column.text(point)));
   const element = h("tr", { "data-id": point.id }, name, ...cells);
@@ -15,20 +15,21 @@ function row(point: Point, choose: (id: string) => void): HTMLTableRowElement {
 
 /** The section with the table. */
 export function pointsTable(payload: Payload, chosen: Signal<string | null>, physical: boolean): HTMLElement {
-  const rows = new Map(payload.points.map((point) => [point, row(point, (id) => (chosen.value = id))]));
+  const columns = columnsOf(payload.points);
+  const rows = new Map(payload.points.map((point) => [point, row(point, columns, (id) => (chosen.value = id))]));
   const body = h("tbody");
-  const heads = COLUMNS.map((column) => h("th", { scope: "col", class: column.numeric ? "number" : "" }));
-  let by: Column = COLUMNS.find(({ name }) => name === "naturalness") as Column;
+  const heads = columns.map((column) => h("th", { scope: "col", class: column.numeric ? "number" : "" }));
+  let by: Column = columns.find(({ name }) => name === "naturalness") as Column;
   let descending = true;
 
   const refresh = (): void => {
     heads.forEach((head, i) => {
-      const order = COLUMNS[i] === by ? (descending ? "descending" : "ascending") : "none";
+      const order = columns[i] === by ? (descending ? "descending" : "ascending") : "none";
       head.setAttribute("aria-sort", order);
     });
     body.replaceChildren(...sorted(payload.points, by, descending).flatMap((point) => rows.get(point) ?? []));
   };
-  COLUMNS.forEach((column, i) => {
+  columns.forEach((column, i) => {
     heads[i]?.append(button(column.name, () => {
       descending = by === column ? !descending : column.numeric;
       by = column;
