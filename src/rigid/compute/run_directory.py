@@ -209,4 +209,5 @@ def _short(value: object) -> str:
 
 def command_line() -> list[str]:
     """What the user typed."""
-    return ["rigid", *sys.argv[1:]] if Path(sys.argv[0]).stem == "rigid" else list(sys.argv)
+    ours = Path(sys.argv[0]).stem in {"rigid", "__main__"}  # `python -m rigid` as well.
+    return ["rigid", *sys.argv[1:]] if ours else list(sys.argv)
