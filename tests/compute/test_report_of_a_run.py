@@ -115,6 +115,24 @@ def test_damaged_learning_curves_are_named(broken_copy, text):
         write_report(broken_copy)
 
 
+def test_points_carry_what_was_said_of_whose_fault_they_are(broken_copy):
+    said = {"solvable": 0.9, "verdict": "another policy copes", "regret": 0.5}
+    (broken_copy / "blame.json").write_text(json.dumps({"s0-r1-l1": {**said, "robot": {}}}))
+    frontier = load_frontier(broken_copy)
+    first, second = gather(frontier, read_settings(RunDirectory(broken_copy)))["frontier"][
+        "points"
+    ][:2]
+    assert first == {**frontier.points[0], **said}
+    assert second == frontier.points[1]
+
+
+@pytest.mark.parametrize("text", ["{", "[]", '{"s0-r1-l1": {}}', '{"s0-r1-l1": 3}'])
+def test_a_damaged_blame_is_named(broken_copy, text):
+    (broken_copy / "blame.json").write_text(text)
+    with pytest.raises(UserError, match=r"blame\.json is damaged: delete it and run `rigid blame`"):
+        write_report(broken_copy)
+
+
 @pytest.mark.parametrize("length", [0, 100, -30])
 def test_damaged_episodes_are_named(broken_copy, length):
     path = broken_copy / "adversaries" / "s0-r1-l1" / "episodes.npz"

@@ -35,6 +35,7 @@ _LEARNING = {
     "accuracy_adversary": "accuracy_adversary",
     "entropy": "entropy",
 }
+_BLAME = ("solvable", "verdict", "regret")
 _ID = re.compile(r"[\w-]+", re.ASCII)
 _GRID = 101
 """Places on the x axis at which the interval band is drawn."""
@@ -56,7 +57,7 @@ def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
     described = settings["identity"].get("task")
     task = task_from_description(described) if isinstance(described, Mapping) else None
     return {
-        "frontier": frontier.data,
+        "frontier": {**frontier.data, "points": _blamed(frontier)},
         "settings": settings,
         "stamp": frontier.data.get("stamp"),
         "band": band(frontier),
@@ -67,6 +68,21 @@ def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
         "scene": None if task is None else task.scene(),
         "replays": None if task is None else replays(frontier, task),
     }
+
+
+def _blamed(frontier: Frontier) -> list[dict[str, Any]]:
+    """The points, with what `rigid blame` said of them where it was asked."""
+    path = frontier.directory / "blame.json"
+    cure = "delete it and run `rigid blame` again"
+    try:
+        said = json.loads(read_bytes(path, cure=cure)) if path.exists() else {}
+        said = dict(said.items())  # Fails for what is no table.
+        return [
+            {**point, **{key: said[point["id"]][key] for key in _BLAME if point["id"] in said}}
+            for point in frontier.points
+        ]
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise UserError(f"{path} is damaged: {cure}") from None
 
 
 def band(frontier: Frontier) -> dict[str, Any]:
