@@ -10,9 +10,14 @@ import pytest
 
 from rigid import cli
 from rigid.cli import run
+from rigid.commands.benchmarking import BenchCommand
+from rigid.commands.blaming import BlameCommand
+from rigid.commands.comparing import CompareCommand, GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.playing import EvaluateCommand, RecordCommand
+from rigid.commands.refereeing import RefereeCommand
 from rigid.commands.training import CoOptimizeCommand, VanillaCommand
+from rigid.commands.verifying import VerifyCommand
 from rigid.errors import UserError
 
 COMMANDS = {
@@ -23,7 +28,15 @@ COMMANDS = {
     "train vanilla": VanillaCommand,
     "record": RecordCommand,
     "evaluate": EvaluateCommand,
+    "referee": RefereeCommand,
+    "verify": VerifyCommand,
+    "compare": CompareCommand,
+    "gate": GateCommand,
+    "blame": BlameCommand,
+    "bench": BenchCommand,
 }
+
+POSITIONAL = {"directory": "PATH ", "directories": "[[PATH "}
 
 
 @pytest.fixture
@@ -64,10 +77,12 @@ def test_help_of_a_command_begins_with_examples_of_it(name, help_of):
 def test_help_names_every_option_with_its_default(name, help_of):
     lines = [line.strip("│| ") for line in help_of(*name.split()).splitlines()]
     for field in dataclasses.fields(COMMANDS[name]):
-        option = "PATH " if name == "report" and field.name == "directory" else f"--{field.name} "
+        dashed = f"--{field.name.replace('_', '-')} "
+        option = POSITIONAL.get(field.name, dashed)
         (line,) = [line for line in lines if line.startswith(option)]
         required = field.default is dataclasses.MISSING
-        assert ("(required)" if required else f"(default: {field.default})") in line
+        default = "" if field.default == () else field.default
+        assert ("(required)" if required else f"(default: {default})") in line
 
 
 def test_help_of_train_lists_the_recipes_with_examples(help_of):

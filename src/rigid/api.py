@@ -8,6 +8,8 @@ from pathlib import Path
 from rigid.compute.measurement import Listener, measure_robot
 from rigid.compute.preparation import Subject
 from rigid.frontier.result import Frontier
+from rigid.naturalness.choice import DEFAULT_MEASURE
+from rigid.naturalness.features import DEFAULT
 from rigid.presets import Preset, find_preset
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import make_task
@@ -22,6 +24,8 @@ def measure(
     seeds: Sequence[int] | None = None,
     lambdas: Sequence[float] | None = None,
     memory: int = 1,
+    search_measure: str = DEFAULT_MEASURE,
+    features: str = DEFAULT,
     human: str = "builtin:synthetic-human",
     canonical: str | Path | None = None,
     listener: Listener | None = None,
@@ -36,6 +40,11 @@ def measure(
         seeds: Search seeds instead of the preset's.
         lambdas: Exactly these λ, without refinement; 0 and ∞ are allowed.
         memory: Observations that an adversary acts on, the newest included.
+        search_measure: What holds adversaries close: lsgan, paper_d2, kl, kl-gan, mmd, temporal or
+            ensemble. The x axis is the referee's, whatever it is.
+        features: What naturalness sees of the human, for search and referee alike: `default` (the
+            task's own), `observation`, `observation+action`, or some of `task.feature_names`
+            separated by commas.
         human: The synthetic human that the robot was trained for.
         canonical: A file of canonical episodes; by default the robot's own.
         listener: Told of progress.
@@ -48,6 +57,7 @@ def measure(
         robot,
         human,
         None if canonical is None else str(canonical),
+        features,
     )
     return measure_robot(
         subject,
@@ -56,5 +66,6 @@ def measure(
         seeds=seeds,
         lambdas=lambdas,
         memory=memory,
+        search_measure=search_measure,
         listener=listener,
     )

@@ -20,7 +20,9 @@ from rigid.commands.comparing import CompareCommand, GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.parsing import printable
 from rigid.commands.playing import EvaluateCommand, RecordCommand
+from rigid.commands.refereeing import RefereeCommand
 from rigid.commands.training import TrainCommand
+from rigid.commands.verifying import VerifyCommand
 from rigid.errors import UserError
 
 INTERRUPTED = 130
@@ -42,6 +44,8 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "train": TrainCommand,
     "record": RecordCommand,
     "evaluate": EvaluateCommand,
+    "verify": VerifyCommand,
+    "referee": RefereeCommand,
 }
 
 

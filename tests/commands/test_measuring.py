@@ -146,11 +146,11 @@ def test_canonical_episodes_with_nan_exit_with_2(frontier, episodes, tmp_path, m
     assert "not finite, the first in episode 2, step 3, feature 'goal'" in err
 
 
-def test_recorded_people_are_refused_for_now(frontier, episodes, tmp_path):
+def test_too_few_recorded_people_are_refused(frontier, episodes, tmp_path):
     save_episodes(tmp_path / "c.npz", replace(episodes, source="recorded"))
     code, _, err = frontier("--canonical", tmp_path / "c.npz")
     assert code == 2
-    assert "was recorded from people: this version's referee needs a human policy" in err
+    assert "c.npz holds 4 recorded episodes, but the referee needs at least 12: record" in err
 
 
 @pytest.fixture

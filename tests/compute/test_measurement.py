@@ -50,7 +50,8 @@ def test_the_run_directory_is_laid_out_as_promised(small_run):
     directory = small_run.directory
     names = {path.name for path in directory.iterdir() if path.is_file()}
     assert names == {"settings.json", "frontier.json", "report.html"}
-    assert sorted(path.stem for path in (directory / "referee").iterdir()) == IDS
+    referees = {f"{name}.{end}" for name in IDS for end in ("json", "safetensors")}
+    assert {path.name for path in (directory / "referee").iterdir()} == referees
     stored = {"policy.safetensors", "policy.json", "discriminator.safetensors", "metrics.jsonl",
               "episodes.npz"}  # fmt: skip
     for name in IDS:

@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from rigid.compute import run_directory
-from rigid.compute.run_directory import check_place, open_run, provenance, read_settings
+from rigid.compute.run_directory import alone_in, check_place, open_run, provenance, read_settings
 from rigid.errors import UserError
 
+ENTER = """
+import sys
+from pathlib import Path
+from rigid.compute.run_directory import alone_in
+from rigid.errors import UserError
+try:
+    with alone_in(Path(sys.argv[1])):
+        pass
+except UserError as error:
+    print(error)
+"""
 IDENTITY = {"preset": {"iterations": 20, "name": "tiny"}, "task": {"name": "toy"}}
 
 
@@ -24,6 +37,30 @@ def test_a_new_directory_is_made_with_its_settings(tmp_path):
     stored = read_settings(opened.directory)
     assert stored["identity"] == IDENTITY
     assert stored["provenance"]["command"] == "rigid frontier"
+
+
+def test_two_processes_do_not_measure_in_one_directory(tmp_path):
+    run = tmp_path / "run"
+    with alone_in(run):
+        check_place(run)  # The lock makes it no foreign directory.
+        other = subprocess.run(
+            [sys.executable, "-c", ENTER, str(run)], capture_output=True, text=True, check=False
+        )
+        assert other.stdout == (
+            f"another process is measuring in {run}: wait for it, or choose another directory "
+            "with --out\n"
+        )
+    with alone_in(run):
+        pass
+    assert not list(run.iterdir())
+
+
+def test_a_lock_ends_with_its_process(tmp_path):
+    code = ENTER.replace("pass", "import os; os._exit(9)")
+    subprocess.run([sys.executable, "-c", code, str(tmp_path)], check=False)
+    assert (tmp_path / ".lock").exists()
+    with alone_in(tmp_path):
+        pass
 
 
 def test_the_same_settings_go_on_and_change_nothing(tmp_path):

@@ -16,7 +16,7 @@ from rigid.learning.adversary import (
     AdversarySettings,
     Experience,
     Opponent,
-    canonical_rows,
+    canonical_motion,
     group_actor,
     pace_at,
     phase_rng,
@@ -26,6 +26,7 @@ from rigid.learning.adversary import (
 )
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import play, policy_actor
+from rigid.naturalness.gan import remember
 from rigid.naturalness.lsgan import PENALTIES, DiscriminatorSettings, score
 from rigid.policies.gaussian import GaussianPolicy
 from tests.learning.reach import bitwise_equal, goer
@@ -109,7 +110,7 @@ def experience(weight=None):
 
 def update(opponent, adversary, rows):
     key = jax.random.key(0)
-    return adversaries._update(adversary, rows, canonical_rows(opponent), key, settings=SETTINGS)
+    return adversaries._update(adversary, rows, canonical_motion(opponent), key, settings=SETTINGS)
 
 
 @pytest.mark.parametrize(
@@ -162,7 +163,7 @@ def test_only_large_lambdas_start_at_the_human(opponent, lambda_, natural):
 
 def test_the_penaltys_unit_is_its_deviation_on_canonical_motion_before_training(opponent):
     fresh = start(opponent, 1.0)[0]
-    scores = score(fresh.discriminator.network, canonical_rows(opponent))
+    scores = score(fresh.measure.discriminator.network, canonical_motion(opponent))
     assert fresh.penalty_std == pytest.approx(float(PENALTIES["amp"](scores).std()))
     trained, _ = train(opponent, [fresh], 1)
     assert trained[0].penalty_std == fresh.penalty_std
@@ -170,13 +171,10 @@ def test_the_penaltys_unit_is_its_deviation_on_canonical_motion_before_training(
 
 def test_the_replay_is_a_ring(opponent):
     """The first iteration fills it, each later one replaces the oldest rows."""
-    adversary, key = start(opponent, 0.0)[0], jax.random.key(0)
-    held = []
+    replay, held = start(opponent, 0.0)[0].measure.replay, []
     for iteration in range(5):
-        adversary = adversary._replace(iteration=jnp.asarray(iteration))
         rows = jnp.full((7, 2), float(iteration))
-        replay = adversaries._remember(adversary, rows, key, SETTINGS.discriminator)
-        adversary = adversary._replace(replay=replay)
+        replay = remember(replay, rows, jnp.asarray(iteration), jax.random.key(0), len(replay) // 3)
         blocks = np.asarray(replay)[:, 0].reshape(3, -1)
         assert (blocks == blocks[:, :1]).all()
         held.append(blocks[:, 0].tolist())
@@ -252,7 +250,7 @@ def test_the_first_iteration_teaches_critic_and_discriminator_only(opponent):
     (after,), _ = train(opponent, before, 1)
     assert bitwise_equal(after.learner.policy, before[0].learner.policy)
     assert not bitwise_equal(after.learner.critic, before[0].learner.critic)
-    assert not bitwise_equal(after.discriminator.network, before[0].discriminator.network)
+    assert not bitwise_equal(after.measure.discriminator, before[0].measure.discriminator)
     assert after.iteration == 1
 
 

@@ -5,10 +5,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from rigid.compute.scoring import Ruler, naturalness_of, train_on
+from rigid.compute.scoring import naturalness_of, seen_by_referee
 from rigid.data.recording import record
 from rigid.learning.rollout import play, policy_actor
-from rigid.naturalness.referee import RefereeSettings, Rows
+from rigid.naturalness.panel import Fold, train_panel
+from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.loading import load_policy
 from rigid.tasks.itch_scratching.scene import LIMBS
 from rigid.tasks.registry import make_task
@@ -54,11 +55,12 @@ def episodes_for_the_other_itch(players, episodes, seed):
 def test_a_human_who_acts_as_if_the_other_itch_itched_is_not_natural(players):
     task, robot, human = players
     canonical = record(task, robot, human, episodes=90, seed=5, batch=30, provenance={})
-    ruler = Ruler(*np.split(canonical.features, 3), task.return_range, RefereeSettings())
+    fold = Fold(*np.split(canonical.features, 3))
     found = [episodes_for_the_other_itch(players, n, seed) for seed, n in enumerate((30, 15, 40))]
-    rows = [played.features.reshape(-1, played.features.shape[-1]) for played in found]
+    train, validation, held_out = (seen_by_referee(played) for played in found)
 
-    referee = train_on(ruler, Rows(*rows[:2]), jax.random.key(0))
+    panel = train_panel([fold], train, validation, RefereeSettings(), jax.random.key(0))
 
     assert found[2].summary.success.mean() == 0
-    assert naturalness_of(ruler, referee, rows[2])["naturalness"] <= 0.3
+    levels = naturalness_of(panel, held_out)["naturalness_all"]
+    assert max(levels.values()) <= 0.3

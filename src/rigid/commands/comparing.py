@@ -30,7 +30,7 @@ class CompareCommand:
       rigid compare runs/* --json > table.json
     """
 
-    directories: Annotated[tuple[Path, ...], tyro.conf.Positional]
+    directories: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
     """Finished run directories, two or more."""
     json: bool = False
     """Print the table as JSON."""

@@ -47,6 +47,10 @@ class FrontierCommand:
     """Exactly these weights, as 0,0.01,1,inf, without refinement."""
     memory: int = 1
     """Observations that an adversary acts on, the newest included."""
+    search_measure: Annotated[str, _shown_as(metavar="NAME")] = "lsgan"
+    """What holds adversaries close: lsgan, paper_d2, kl, kl-gan, mmd, temporal or ensemble."""
+    features: Annotated[str, _shown_as(metavar="NAMES")] = "default"
+    """What naturalness sees: default, observation, observation+action, or the task's by name."""
     budget: Annotated[str | None, _shown_as(metavar="TIME")] = None
     """Fit the preset to a time: 90s, 30m, 2h."""
     json: bool = False
@@ -111,8 +115,9 @@ def _measure(options: FrontierCommand) -> int:
             listener.say(f"preparing {options.robot} on {options.task} (preset {preset.name})")
             frontier = measure(
                 options.task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
-                lambdas=lambdas, memory=options.memory, human=options.human,
-                canonical=options.canonical, listener=listener,
+                lambdas=lambdas, memory=options.memory, search_measure=options.search_measure,
+                features=options.features, human=options.human, canonical=options.canonical,
+                listener=listener,
             )  # fmt: skip
             report = options.out / "report.html"
             if not report.exists():

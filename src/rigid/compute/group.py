@@ -17,6 +17,7 @@ import jax
 import numpy as np
 
 from rigid.compute.checkpoint import load_tree, save_arrays, save_tree
+from rigid.compute.referee_files import save_panel
 from rigid.compute.scoring import Court, Ruler, judge, score
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically
@@ -28,7 +29,6 @@ from rigid.learning.adversary import (
     start_adversary,
     train_iteration,
 )
-from rigid.naturalness.referee import Referee
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.native import save_policy
 from rigid.presets import Preset
@@ -96,7 +96,7 @@ def run_group(
         return _read_done(done, plan)
     group, history = _train(inputs, plan, advance)
     policies = [adversary.learner.policy for adversary in group]
-    court = Court(inputs.task, inputs.opponent, inputs.ruler, inputs.preset)
+    court = Court(inputs.task, inputs.opponent, inputs.ruler, inputs.preset, inputs.settings)
     judged = judge(court, policies, plan.entropy)
     scored = score(court, group, judged, plan.entropy)
     points = []
@@ -111,8 +111,9 @@ def run_group(
             **convergence(history[index]),
             **point,
         })  # fmt: skip
-        referee = Referee(judged[index].network, inputs.ruler.scale)
-        save_tree(inputs.directory / "referee" / f"{name}.safetensors", referee)
+        save_panel(
+            inputs.directory / "referee", name, judged[index].panel, inputs.task.feature_names
+        )
         save_arrays(inputs.directory / "adversaries" / name / "episodes.npz", episodes)
     done.parent.mkdir(exist_ok=True)
     write_atomically(done, json_text({"points": points}, indent=1).encode())
@@ -189,7 +190,8 @@ def _save(
             provenance={"lambda": json_lambda(plan.lambdas[index]), "seed": plan.seed,
                         "round": plan.round, "iterations": int(adversary.iteration)},
         )  # fmt: skip
-        save_tree(directory / "discriminator.safetensors", adversary.discriminator.network)
+        kept = inputs.settings.search_measure.kept(adversary.measure)
+        save_tree(directory / "discriminator.safetensors", kept)
         text = "".join(json.dumps(row) + "\n" for row in rows)
         write_atomically(directory / "metrics.jsonl", text.encode())
     (inputs.directory / "groups").mkdir(exist_ok=True)
@@ -223,7 +225,8 @@ def convergence(history: Sequence[Row]) -> dict[str, Any]:
 
     `converged`: the return moved by less than one standard deviation of its iteration-to-iteration
     noise between the two halves of that fifth, and the discriminator still errs on some adversary
-    rows or none of them look canonical (it neither collapsed nor froze).
+    rows or none of them look canonical (it neither collapsed nor froze); a measure without a
+    discriminator has none that could.
     """
     window = max(len(history) // 5, 2)
     tail = history[-window:]
@@ -232,11 +235,21 @@ def convergence(history: Sequence[Row]) -> dict[str, Any]:
     drift = float(returns[half:].mean() - returns[:half].mean())
     noise = float(np.abs(np.diff(returns)).mean())
     rested = abs(drift) <= max(noise, 1e-9)
-    alert = float(np.mean([row["accuracy_canonical"] for row in tail])) > 0.5
+    accuracy = {
+        side: _mean([row[f"accuracy_{side}"] for row in tail])
+        for side in ("canonical", "adversary")
+    }
+    alert = accuracy["canonical"] is None or accuracy["canonical"] > 0.5
     return {
         "converged": bool(rested and alert),
         "return_drift": drift,
-        "accuracy_canonical": float(np.mean([row["accuracy_canonical"] for row in tail])),
-        "accuracy_adversary": float(np.mean([row["accuracy_adversary"] for row in tail])),
+        "accuracy_canonical": accuracy["canonical"],
+        "accuracy_adversary": accuracy["adversary"],
         "entropy": float(tail[-1]["entropy"]),
     }
+
+
+def _mean(values: Sequence[float | None]) -> float | None:
+    """None where one is unknown."""
+    known = [value for value in values if value is not None]
+    return float(np.mean(known)) if len(known) == len(values) else None

@@ -20,11 +20,19 @@ from rigid.compute.preparation import (
     seeds_of,
     settings_for,
 )
-from rigid.compute.run_directory import check_place, command_line, open_run
+from rigid.compute.run_directory import (
+    OpenRun,
+    alone_in,
+    check_place,
+    command_line,
+    open_run,
+)
 from rigid.files import json_text, write_atomically
 from rigid.frontier.result import Frontier, load_frontier, measured_points
 from rigid.frontier.search import next_round
 from rigid.frontier.statistics import summarize_seeds
+from rigid.learning.adversary import AdversarySettings
+from rigid.naturalness.choice import DEFAULT_MEASURE
 from rigid.presets import Preset
 
 
@@ -66,6 +74,7 @@ def measure_robot(
     seeds: Sequence[int] | None = None,
     lambdas: Sequence[float] | None = None,
     memory: int = 1,
+    search_measure: str = DEFAULT_MEASURE,
     listener: Listener | None = None,
 ) -> Frontier:
     """Measures a robot into `out`, or goes on where an earlier call stopped.
@@ -77,6 +86,7 @@ def measure_robot(
         seeds: Search seeds instead of the preset's; those that `out` already has stay.
         lambdas: Exactly these λ, without refinement; 0 and inf are allowed.
         memory: Observations that an adversary acts on.
+        search_measure: What holds adversaries close; never what they are judged by.
         listener: Told of progress.
 
     Raises:
@@ -84,43 +94,62 @@ def measure_robot(
     """
     listener = listener or Silence()
     clock = Clock()
-    settings = settings_for(preset, memory)
+    settings = settings_for(preset, memory, search_measure)
     chosen, lambdas = seeds_of(preset, seeds), lambdas_of(lambdas)
     check_place(out)
     prepared = prepare(subject, preset, settings)
     exactly = None if lambdas is None else [json_lambda(value) for value in lambdas]
-    opened = open_run(out, {**prepared.identity, "lambdas": exactly}, chosen, command_line())
-    run, chosen = opened.directory, opened.seeds
-    for warning in opened.warnings:
-        listener.say(warning)
-    if run.frontier.exists():
-        listener.say(f"{out} is already complete; nothing to do")
-        return load_frontier(out)
-    clock.go_on(run.path / "groups" / "spent.json")
+    with alone_in(out):
+        opened = open_run(out, {**prepared.identity, "lambdas": exactly}, chosen, command_line())
+        for warning in opened.warnings:
+            listener.say(warning)
+        if opened.directory.frontier.exists():
+            listener.say(f"{out} is already complete; nothing to do")
+            return load_frontier(out)
+        clock.go_on(opened.directory.path / "groups" / "spent.json")
+        data = _measured(subject, prepared, preset, settings, opened, lambdas, clock, listener)
+        write_atomically(opened.directory.frontier, json_text(data, indent=1).encode())
+    return load_frontier(out)
+
+
+def _measured(
+    subject: Subject,
+    prepared: Prepared,
+    preset: Preset,
+    settings: AdversarySettings,
+    opened: OpenRun,
+    lambdas: Sequence[float] | None,
+    clock: Clock,
+    listener: Listener,
+) -> dict[str, Any]:
+    """Searches every seed and sums up: what `frontier.json` holds."""
 
     def advance(env_steps: int) -> None:
         listener.advance(env_steps)
         clock.tick()
 
     inputs = GroupInputs(
-        subject.task, prepared.opponent, prepared.ruler, preset, settings, run.path
+        prepared.task, prepared.opponent, prepared.ruler, preset, settings, opened.directory.path
     )
     per_seed = len(lambdas) if lambdas is not None else sum(preset.per_round)
-    steps = per_seed * len(chosen) * preset.iterations * preset.episodes * subject.task.horizon
+    episodes = per_seed * len(opened.seeds) * preset.iterations * preset.episodes
+    steps = episodes * subject.task.horizon
     speed = TRAINING_SHARE * prepared.steps_per_second
     listener.begin(steps, FIXED_SECONDS + steps / speed)
     points: list[dict[str, Any]] = []
-    for seed in chosen:
+    for seed in opened.seeds:
         points += _search(inputs, seed, lambdas, advance)
-    headline = _headline(points, prepared, chosen)
-    passive = passive_reference(subject.task, prepared, preset)
+    headline = _headline(points, prepared, opened.seeds)
+    passive = passive_reference(prepared.task, prepared, preset)
     clock.keep()
-    data = {
+    return {
         "schema": 1,
         "task": subject.task.name,
         "robot": subject.robot,
         "human": subject.human,
         "preset": preset.name,
+        "search_measure": prepared.identity["measure"],
+        "features": prepared.identity["features"],
         "canonical": prepared.canonical,
         **headline,
         "return_range": list(prepared.ruler.return_range),
@@ -130,8 +159,6 @@ def measure_robot(
         **_costs(points, prepared, preset, subject.task.horizon),
         **clock.read(),
     }
-    write_atomically(run.frontier, json_text(data, indent=1).encode())
-    return load_frontier(out)
 
 
 def _search(

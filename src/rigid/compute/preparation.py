@@ -5,21 +5,31 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import jax
 import numpy as np
+from jaxtyping import Float
 
+from rigid.compute.canonical import Divided, divide_recorded, divide_synthetic
 from rigid.compute.endings import ended, measure
-from rigid.compute.scoring import Ruler, naturalness_of, play_with, train_on
+from rigid.compute.scoring import (
+    Ruler,
+    naturalness_of,
+    play_with,
+    seen_by_referee,
+)
 from rigid.data.episodes import CanonicalEpisodes, data_hash, load_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.learning.adversary import AdversarySettings, Opponent, phase_rng
 from rigid.learning.rollout import policy_actor
-from rigid.naturalness.referee import RefereeSettings, Rows
+from rigid.naturalness.choice import DEFAULT_MEASURE, check_measure
+from rigid.naturalness.features import DEFAULT, Features, choose_features, seen_through
+from rigid.naturalness.panel import train_panel
+from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import BUNDLED, load_policy, policy_hash
 from rigid.policies.passive import PassivePolicy
@@ -41,19 +51,23 @@ class Subject:
     human: str = "builtin:synthetic-human"
     canonical: str | None = None
     """A file of canonical episodes; by default the robot's own, or a fresh recording."""
+    features: str = DEFAULT
+    """What naturalness sees of the human, for search and referee alike; see `choose_features`."""
 
 
 @dataclass(frozen=True)
 class Prepared:
     """The frozen part of a measurement."""
 
+    task: Task
+    """The subject's, with the features that the user chose."""
     opponent: Opponent
     ruler: Ruler
     canonical: dict[str, Any]
     """The `canonical` block of `frontier.json`."""
     env_steps: int
     steps_per_second: float
-    """Environment steps per second while recording, for the estimate of time."""
+    """Environment steps per second of canonical play, for the estimate of time."""
     identity: dict[str, Any]
 
 
@@ -63,7 +77,7 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
     Raises:
         UserError: Something the user named does not exist, is damaged or does not fit.
     """
-    task = subject.task
+    task, features = subject.task, choose_features(subject.features, subject.task)
     if task.return_range is None:
         raise UserError(
             f"task {task.name!r} has no range of adversarialness: set its return_range to the "
@@ -81,28 +95,25 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
             f"human {subject.human!r} sees its last {human.memory} observations, but the search "
             "starts from a human without memory: name a synthetic human trained so"
         )
-    search = _search_episodes(subject, robot, human, preset)
+    referee = RefereeSettings()
+    canonical, played = _canonical(subject, robot, human, preset, features, referee)
+    ruler = Ruler(canonical.folds, task.return_range, referee)
     begun = time.perf_counter()
-    held_out = record(
-        task, robot, human, episodes=3 * preset.referee_canonical, seed=_RULER_SEED,
-        batch=_BLOCK, provenance={},
-    )  # fmt: skip
-    spent = time.perf_counter() - begun
-    train, validation, test = np.split(held_out.features, 3)
-    ruler = Ruler(train, validation, test, task.return_range, RefereeSettings())
     reward_std = _reward_std(task, robot, human)
+    spent = time.perf_counter() - begun
+    search = canonical.search
     opponent = Opponent(robot, human.parameters, search.features, search.seeds, reward_std)
-    steps = _played(3 * preset.referee_canonical) * task.horizon
-    others = _BLOCK  # Those of _reward_std.
-    if _canonical_path(subject) is None:
-        others += _played(preset.search_canonical)
     return Prepared(
+        seen_through(task, features),
         opponent,
         ruler,
-        _canonical_block(task, held_out, search, preset),
-        env_steps=steps + others * task.horizon,
-        steps_per_second=steps / spent,
-        identity=_identity(task, robot, human, search, preset, settings),
+        _canonical_block(task, canonical),
+        env_steps=(played + _BLOCK) * task.horizon,
+        steps_per_second=_BLOCK * task.horizon / spent,
+        identity={
+            **_identity(task, robot, human, canonical.whole, preset, settings),
+            "features": features.label,
+        },
     )
 
 
@@ -114,31 +125,62 @@ def passive_reference(task: Task, prepared: Prepared, preset: Preset) -> dict[st
     starts = rng.integers(2**31, size=sum(parts))
     actor = policy_actor(human, len(starts), None)
     episodes = play_with(task, prepared.opponent.robot, actor, starts)
-    splits = np.split(np.arange(len(starts)), np.cumsum(parts)[:2])
-    train, validation, test = (episodes.features[:, part] for part in splits)
-    rows = [part.reshape(-1, part.shape[-1]) for part in (train, validation, test)]
-    referee = train_on(prepared.ruler, Rows(*rows[:2]), jax.random.key(0))
+    ends = np.cumsum(parts)
+    splits = (slice(0, ends[0]), slice(ends[0], ends[1]), slice(ends[1], None))
+    train, validation, test = (seen_by_referee(episodes, part) for part in splits)
+    ruler = prepared.ruler
+    panel = train_panel(ruler.folds, train, validation, ruler.settings, jax.random.key(0))
     scored = slice(len(starts) - preset.scoring_episodes, None)
-    found = measure(ended(episodes), scored, task, prepared.ruler.return_range)
-    return {**naturalness_of(prepared.ruler, referee, rows[2]), **found}
+    found = measure(ended(episodes), scored, task, ruler.return_range)
+    return {**naturalness_of(panel, test), **found}
 
 
-def _search_episodes(
-    subject: Subject, robot: Policy, human: GaussianPolicy, preset: Preset
-) -> CanonicalEpisodes:
+def _canonical(
+    subject: Subject,
+    robot: Policy,
+    human: GaussianPolicy,
+    preset: Preset,
+    features: Features,
+    settings: RefereeSettings,
+) -> tuple[Divided, int]:
+    """Canonical episodes by use, and how many of them had to be played."""
+
+    def seen(episodes: CanonicalEpisodes) -> CanonicalEpisodes:
+        return replace(episodes, features=_chosen(features, episodes, subject))
+
     path = _canonical_path(subject)
-    if path is not None:
-        episodes = load_episodes(path, task=subject.task)
-        if episodes.source == "recorded":
-            raise UserError(
-                f"{path} was recorded from people: this version's referee needs a human policy "
-                "that can be played again; leave --canonical out or give synthetic episodes"
-            )
-        return episodes
-    return record(
-        subject.task, robot, human, episodes=preset.search_canonical, seed=_SEARCH_SEED,
-        batch=_BLOCK, provenance={"robot": subject.robot, "human": subject.human},
-    )  # fmt: skip
+    given = None if path is None else load_episodes(path, task=subject.task)
+    if path is not None and given is not None and given.source == "recorded":
+        search, folds = preset.search_canonical, settings.folds
+        divided = divide_recorded(seen(given), search=search, folds=folds, where=path)
+        return divided._replace(whole=given), 0
+    count, referee = 0, 3 * preset.referee_canonical
+    if given is None:
+        count = _played(preset.search_canonical)
+        given = record(
+            subject.task, robot, human, episodes=preset.search_canonical, seed=_SEARCH_SEED,
+            batch=_BLOCK, provenance={"robot": subject.robot, "human": subject.human},
+        )  # fmt: skip
+    held_out = record(
+        subject.task, robot, human, episodes=referee, seed=_RULER_SEED, batch=_BLOCK, provenance={}
+    )
+    divided = divide_synthetic(seen(given), seen(held_out))
+    return divided._replace(whole=given), count + _played(referee)
+
+
+def _chosen(
+    features: Features, episodes: CanonicalEpisodes, subject: Subject
+) -> Float[np.ndarray, "E T f"]:
+    """The chosen features of canonical episodes."""
+    if features.label == DEFAULT:
+        return episodes.features
+    if episodes.observations is None or episodes.actions is None:
+        raise UserError(
+            f"{_canonical_path(subject)} holds no observations and actions, so features "
+            f"{features.label!r} cannot be taken from it: leave --features out, or record it again "
+            "with `rigid record`"
+        )
+    return features.of(episodes.features, episodes.observations, episodes.actions)
 
 
 def _played(episodes: int) -> int:
@@ -164,19 +206,17 @@ def _reward_std(task: Task, robot: Policy, human: GaussianPolicy) -> float:
     return max(float(episodes.reward.std()), 1e-6)
 
 
-def _canonical_block(
-    task: Task, held_out: CanonicalEpisodes, search: CanonicalEpisodes, preset: Preset
-) -> dict[str, Any]:
+def _canonical_block(task: Task, canonical: Divided) -> dict[str, Any]:
     assert task.return_range is not None
-    test = slice(2 * preset.referee_canonical, None)
-    success = float(np.mean(held_out.success[test]))
+    returns = canonical.referee.returns[canonical.anchor]
+    success = float(np.mean(canonical.referee.success[canonical.anchor]))
     return {
         "success": None if np.isnan(success) else success,
-        "return": float(held_out.returns[test].mean()),
-        "adversarialness": float(adversarialness(held_out.returns[test], task.return_range).mean()),
-        "episodes": len(search),
-        "episodes_referee": len(held_out),
-        "source": search.source,
+        "return": float(returns.mean()),
+        "adversarialness": float(adversarialness(returns, task.return_range).mean()),
+        "episodes": len(canonical.search),
+        "episodes_referee": len(canonical.referee),
+        "source": canonical.search.source,
     }
 
 
@@ -184,32 +224,37 @@ def _identity(
     task: Task,
     robot: Policy,
     human: GaussianPolicy,
-    search: CanonicalEpisodes,
+    canonical: CanonicalEpisodes,
     preset: Preset,
     settings: AdversarySettings,
 ) -> dict[str, Any]:
     budget = preset.describe()
     del budget["seeds"]  # Seeds may be added to a finished run.
+    training = asdict(settings)
     identity = {
         "task": dict(task.describe()),
         "return_range": list(task.return_range or ()),
         "robot": policy_hash(robot),  # type: ignore[arg-type]
         "human": policy_hash(human),
-        "canonical": data_hash(search),
+        "canonical": data_hash(canonical),
         "preset": budget,
-        "measure": "lsgan",
-        "features": "default",
-        "adversary": asdict(settings),
+        "measure": training.pop("measure"),
+        "adversary": training,
         "referee": asdict(RefereeSettings()),
     }
     return dict(json.loads(json.dumps(identity)))  # As JSON gives it back: lists for tuples.
 
 
-def settings_for(preset: Preset, memory: int = 1) -> AdversarySettings:
+def settings_for(
+    preset: Preset, memory: int = 1, search_measure: str = DEFAULT_MEASURE
+) -> AdversarySettings:
     """The adversary's settings under a preset's budget."""
     if memory < 1:
         raise UserError(f"memory is {memory}, but an adversary sees at least 1 observation")
-    return AdversarySettings(iterations=preset.iterations, episodes=preset.episodes, memory=memory)
+    return AdversarySettings(
+        iterations=preset.iterations, episodes=preset.episodes, memory=memory,
+        measure=check_measure(search_measure),
+    )  # fmt: skip
 
 
 def lambdas_of(lambdas: Sequence[float] | None) -> tuple[float, ...] | None:

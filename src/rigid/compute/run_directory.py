@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 import platform
@@ -21,7 +22,7 @@ from rigid.files import first_difference, json_text, read_bytes, write_atomicall
 
 SCHEMA = 1
 _LIBRARIES = ("mujoco", "jax", "jaxlib", "numpy", "optax", "scipy")
-_LEFTOVER = re.compile(r"\.settings\.json\.\d+\.tmp")
+_LEFTOVER = re.compile(r"\.settings\.json\.\d+\.tmp|\.lock")
 """What a run that was killed at its very first write leaves behind."""
 
 
@@ -89,6 +90,33 @@ def writing_to(path: Path) -> Iterator[None]:
         raise UserError(
             f"cannot write to {path} ({error.strerror}): choose another place with --out"
         ) from None
+
+
+@contextmanager
+def alone_in(path: Path) -> Iterator[None]:
+    """Keeps other processes out of a run directory; the lock ends with the process, however.
+
+    Raises:
+        UserError: Another process is measuring there, or `path` cannot be written.
+    """
+    if path.exists() and not os.access(path, os.W_OK):  # Nothing can be measured here.
+        yield
+        return
+    with writing_to(path):
+        path.mkdir(parents=True, exist_ok=True)
+        file = (path / ".lock").open("w")
+    with file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise UserError(
+                f"another process is measuring in {path}: wait for it, or choose another "
+                "directory with --out"
+            ) from None
+        try:
+            yield
+        finally:
+            (path / ".lock").unlink(missing_ok=True)
 
 
 def open_run(

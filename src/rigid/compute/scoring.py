@@ -2,55 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float, Int
 
 from rigid.compute.endings import Ended, ended, measure
-from rigid.learning.adversary import Adversary, Opponent, group_actor, phase_rng
-from rigid.learning.rollout import Actor, Trajectories, play, policy_actor
-from rigid.naturalness import lsgan
-from rigid.naturalness.referee import (
-    HEADLINE_KAPPA,
-    KAPPAS,
-    Referee,
-    RefereeSettings,
-    Rows,
-    log_ratio,
-    overlap,
-    train_referee,
+from rigid.learning.adversary import (
+    Adversary,
+    AdversarySettings,
+    Opponent,
+    group_actor,
+    own_scores,
+    phase_rng,
 )
-from rigid.naturalness.standardise import Scale, canonical_scale, standardise
+from rigid.learning.rollout import Actor, Trajectories, play, policy_actor
+from rigid.naturalness.panel import AXIS, Fold, Panel, naturalness, rate, train_panels
+from rigid.naturalness.referee import RefereeSettings
+from rigid.naturalness.views import Episodes
 from rigid.policies.gaussian import GaussianParameters, GaussianPolicy
-from rigid.policies.networks import MLP
 from rigid.policies.protocol import Policy
 from rigid.presets import Preset
 from rigid.tasks.protocol import Task
-
-_UNKNOWN_LEVELS = ("window16_k1", "window16_k4", "window16_k16")
-"""Other axes that `frontier.json` has room for: this version's referee judges single steps."""
 
 
 @dataclass(frozen=True)
 class Ruler:
     """What naturalness and adversarialness are measured with; the same for every adversary."""
 
-    train: Float[np.ndarray, "E T f"]
-    """Canonical features that referees learn from; no search ever sees these three parts."""
-    validation: Float[np.ndarray, "E T f"]
-    test: Float[np.ndarray, "E T f"]
+    folds: tuple[Fold, ...]
+    """Canonical episodes that no search ever sees: one fold, or K of recorded people."""
     return_range: tuple[float, float]
     settings: RefereeSettings
-
-    @property
-    def scale(self) -> Scale:
-        """Frozen moments of the canonical training part."""
-        return canonical_scale(self.train)
 
 
 class Court(NamedTuple):
@@ -60,18 +46,20 @@ class Court(NamedTuple):
     opponent: Opponent
     ruler: Ruler
     preset: Preset
+    settings: AdversarySettings
+    """What the adversaries were trained with; says how their own discriminators score."""
 
 
 class Judged(NamedTuple):
-    """A referee and what it said on the episodes that select λ."""
+    """An adversary's referees and what they said on the episodes that select λ."""
 
-    network: MLP
+    panel: Panel
     naturalness: float
     """Headline naturalness on validation episodes; steers the search, never the frontier."""
 
 
 def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) -> list[Judged]:
-    """Trains one referee for each adversary on episodes of its own."""
+    """Trains the referees of each adversary on episodes of its own."""
     preset = court.preset
     rng = phase_rng(entropy, "referee")
     count = preset.referee_episodes + preset.validation_episodes
@@ -79,23 +67,17 @@ def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) ->
     episodes = play_with(
         court.task, court.opponent.robot, group_actor(policies, rng), starts, humans=len(policies)
     )
-    judged = []
+    parts = slice(preset.referee_episodes), slice(preset.referee_episodes, None)
+    seen = []
     for index in range(len(policies)):
-        features, sound = _own(episodes, index, count)
-        train, validation = (
-            _rows(features[:, part], sound[:, part])
-            for part in (slice(preset.referee_episodes), slice(preset.referee_episodes, None))
-        )
-        key = jax.random.fold_in(jax.random.key(entropy), index)
-        referee = train_on(court.ruler, Rows(train, validation), key)
-        judged.append(Judged(referee.network, _levels(court.ruler, referee, validation)[0]))
-    return judged
-
-
-def train_on(ruler: Ruler, adversary: Rows, key: jax.Array) -> Referee:
-    """A referee between the ruler's canonical rows and one human's."""
-    canonical = Rows(_flat(ruler.train), _flat(ruler.validation))
-    return train_referee(canonical, adversary, ruler.scale, ruler.settings, key)
+        own = seen_by_referee(episodes, _block(index, count))
+        seen.append((own.part(parts[0]), own.part(parts[1])))
+    ruler = court.ruler
+    panels = train_panels(ruler.folds, seen, ruler.settings, jax.random.key(entropy))
+    return [
+        Judged(panel, naturalness_of(panel, validation)["naturalness"])
+        for panel, (_, validation) in zip(panels, seen, strict=True)
+    ]
 
 
 def score(
@@ -121,17 +103,12 @@ def score(
     companions, films = _canonical_companions(court, starts[np.concatenate(shown)], entropy)
     results = []
     for index, adversary in enumerate(group):
-        features, sound = _own(episodes, index, count)
-        referee = Referee(judged[index].network, court.ruler.scale)
-        rows = _rows(features, sound)
-        own = lsgan.score(
-            adversary.discriminator.network,
-            jnp.asarray(standardise(canonical_scale(court.opponent.canonical), rows)),
-        )
+        scored = seen_by_referee(episodes, _block(index, count))
+        own = own_scores(adversary, scored.features, court.opponent, court.settings)
         mine, picks = _block(index, count), shown[index]
         point = {
-            **naturalness_of(court.ruler, referee, rows),
-            "naturalness_own": float(np.mean(np.asarray(own) < 0)),
+            **naturalness_of(judged[index].panel, scored),
+            "naturalness_own": None if own is None else rate(own < 0, scored.sound).value,
             "naturalness_selection": judged[index].naturalness,
             **measure(endings, mine, court.task, court.ruler.return_range),
         }
@@ -149,27 +126,24 @@ def score(
     return results
 
 
-def naturalness_of(
-    ruler: Ruler, referee: Referee, rows: Float[np.ndarray, "n f"]
-) -> dict[str, Any]:
-    """The naturalness fields of a point, from held-out rows of one human."""
-    headline, by_kappa = _levels(ruler, referee, rows)
+def naturalness_of(panel: Panel, episodes: Episodes) -> dict[str, Any]:
+    """The naturalness fields of a point, from held-out episodes of one human."""
+    levels = naturalness(panel, episodes)
+    headline = levels[AXIS]
     return {
-        "naturalness": headline,
+        # Of a human who ran away at once nothing is known; its faults keep it off the frontier.
+        "naturalness": 0.0 if headline is None else headline.value,
+        "naturalness_se": None if headline is None else headline.se,
         "naturalness_all": {
-            **{f"step_k{kappa:g}": value for kappa, value in by_kappa.items()},
-            **dict.fromkeys(_UNKNOWN_LEVELS),
+            name: None if found is None else found.value for name, found in levels.items()
         },
     }
 
 
-def _levels(
-    ruler: Ruler, referee: Referee, rows: Float[np.ndarray, "n f"]
-) -> tuple[float, Mapping[float, float]]:
-    """Headline naturalness, and that of every κ, on the ruler's held-out canonical part."""
-    adversary, canonical = log_ratio(referee, rows), log_ratio(referee, _flat(ruler.test))
-    levels = {kappa: overlap(adversary, canonical, kappa) for kappa in KAPPAS}
-    return levels[HEADLINE_KAPPA], levels
+def seen_by_referee(episodes: Trajectories, mine: slice = slice(None)) -> Episodes:
+    """Some of the episodes that were played, as referees take them."""
+    features, weight = episodes.features[:, mine], episodes.weight[:, mine]
+    return Episodes(features.swapaxes(0, 1), weight.swapaxes(0, 1) > 0)
 
 
 def play_with(
@@ -226,18 +200,3 @@ def _shown(endings: Ended, mine: slice) -> Int[np.ndarray, "2"]:
 
 def _block(index: int, count: int) -> slice:
     return slice(index * count, (index + 1) * count)
-
-
-def _own(episodes: Trajectories, index: int, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """One adversary's features (T, N, f) and which of its steps came before any fault (T, N)."""
-    mine = _block(index, count)
-    return episodes.features[:, mine], episodes.weight[:, mine] > 0
-
-
-def _rows(features: np.ndarray, sound: np.ndarray) -> np.ndarray:
-    rows: np.ndarray = features[sound]
-    return rows
-
-
-def _flat(features: Float[np.ndarray, "E T f"]) -> Float[np.ndarray, "n f"]:
-    return features.reshape(-1, features.shape[-1])

@@ -1,12 +1,13 @@
-"""Natural-adversarial humans: PPO against a frozen robot, held close by a discriminator.
+"""Natural-adversarial humans: PPO against a frozen robot, held close by a search measure.
 
 For a weight λ the adversary maximises, per step,
 
-    -R / σ_R - λ · penalty(D(features)) / σ_P            (paper, Eq. 6, with Eq. 2's D)
+    -R / σ_R - λ · penalty / σ_P            (paper, Eq. 6; by default with Eq. 2's D)
 
-σ_R is the per-step standard deviation of canonical reward, σ_P that of the penalty on canonical
-motion before training; both are frozen. λ = ∞ drops the first term. A group of adversaries, one for
-each λ, plays side by side in one set of worlds; each then learns on its own rows.
+σ_R is the per-step standard deviation of canonical reward, σ_P the measure's unit, by default the
+deviation of the penalty on canonical motion before training; both are frozen. λ = ∞ drops the first
+term. A group of adversaries, one for each λ, plays side by side in one set of worlds; each then
+learns on its own rows.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -23,16 +24,9 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray, Shaped
 
 from rigid.learning.ppo import Learner, PPOSettings, Rollout, ppo_update, start_learner
 from rigid.learning.rollout import play, policy_actor
-from rigid.naturalness.lsgan import (
-    PENALTIES,
-    Discriminator,
-    DiscriminatorHealth,
-    DiscriminatorSettings,
-    init_discriminator,
-    noise_level,
-    score,
-    update_discriminator,
-)
+from rigid.naturalness.choice import DEFAULT_MEASURE, measure_named
+from rigid.naturalness.lsgan import DiscriminatorSettings
+from rigid.naturalness.measure import Health, Measure, Motion, unknown
 from rigid.naturalness.standardise import canonical_scale, standardise
 from rigid.policies.gaussian import (
     GaussianParameters,
@@ -57,8 +51,10 @@ class AdversarySettings:
     memory: int = 1
     """Observations that the adversary acts on, the newest included (the paper's human acts on local
     histories; one is enough where the observation tells the state)."""
+    measure: str = DEFAULT_MEASURE
+    """What holds the adversary close: a name of `rigid.naturalness.choice.MEASURES`."""
     penalty: str = "amp"
-    """Which function of the score is penalised: `amp` or `paper_d2`."""
+    """Which function of a discriminator's score is penalised: `amp` or `paper_d2`."""
     natural_start: float = 0.3
     """From this λ on an adversary starts at the synthetic human, below it from random weights: a
     canonical start stays natural but is still harmless when the budget ends (measured). Ours."""
@@ -69,6 +65,11 @@ class AdversarySettings:
     )
     """The paper does not give the adversary's PPO settings. Ours."""
     discriminator: DiscriminatorSettings = field(default_factory=DiscriminatorSettings)
+
+    @property
+    def search_measure(self) -> Measure:
+        """The measure that `measure` names."""
+        return measure_named(self.measure, self.discriminator, self.penalty)
 
 
 class Opponent(NamedTuple):
@@ -90,9 +91,8 @@ class Adversary(NamedTuple):
     """One adversary in training; a pytree, so that it can be saved at any iteration."""
 
     learner: Learner
-    discriminator: Discriminator
-    replay: Float[Array, "R f"]
-    """Standardised features of its last iterations."""
+    measure: Any
+    """State of the search measure; of a discriminator it is a `GanState`."""
     penalty_std: Float[Array, ""]
     """σ_P, frozen."""
     lambda_: Float[Array, ""]
@@ -119,11 +119,9 @@ class Metrics(NamedTuple):
     success: Float[Array, ""]
     penalty: Float[Array, ""]
     naturalness_own: Float[Array, ""]
+    """Share of steps that its own discriminator takes for canonical; NaN where it has none."""
     entropy: Float[Array, ""]
-    health: DiscriminatorHealth
-
-
-_REPLAY_ROWS = 256  # Kept of each iteration (ours).
+    health: Health
 
 
 _PHASES = ("train", "referee", "score", "canonical")
@@ -137,33 +135,44 @@ def phase_rng(seed: int, phase: str, number: int = 0) -> np.random.Generator:
 def start_adversary(
     opponent: Opponent, settings: AdversarySettings, lambda_: float, key: PRNGKeyArray
 ) -> Adversary:
-    """A fresh adversary and its discriminator, before any step."""
-    policy_key, critic_key, discriminator_key = jax.random.split(key, 3)
-    canonical = canonical_rows(opponent)
+    """A fresh adversary and its measure, before any step."""
+    policy_key, critic_key, measure_key = jax.random.split(key, 3)
+    canonical, measure = canonical_motion(opponent), settings.search_measure
     human = with_memory(opponent.human, settings.memory)
     sizes = [human.network[0]["w"].shape[0], *(layer["w"].shape[1] for layer in human.network)]
+    state = measure.start(measure_key, canonical, human)
     if lambda_ < settings.natural_start:
         human = human._replace(network=init_mlp(policy_key, sizes, last_scale=0.01))
     critic = init_mlp(critic_key, (sizes[0] + 1, *sizes[1:-1], 1), last_scale=0.01)
-    discriminator = init_discriminator(
-        discriminator_key, canonical.shape[-1], settings.discriminator
-    )
-    penalty = PENALTIES[settings.penalty](score(discriminator.network, canonical))
-    rows = settings.discriminator.replay_iterations * _REPLAY_ROWS
     return Adversary(
         start_learner(settings.ppo, human, critic, human.normaliser),
-        discriminator,
-        jnp.zeros((rows, canonical.shape[-1])),
-        jnp.maximum(penalty.std(), 1e-3),
+        state,
+        measure.unit(state, canonical),
         jnp.asarray(lambda_, jnp.float32),
         jnp.asarray(0, jnp.int32),
     )
 
 
-def canonical_rows(opponent: Opponent) -> Float[Array, "n f"]:
-    """The search's canonical features, standardised, one row for each step."""
+def canonical_motion(opponent: Opponent) -> Float[Array, "E T f"]:
+    """The search's canonical episodes, standardised."""
     scale = canonical_scale(opponent.canonical)
-    return jnp.asarray(standardise(scale, opponent.canonical.reshape(-1, scale.mean.size)))
+    rows = standardise(scale, opponent.canonical.reshape(-1, scale.mean.size))
+    return jnp.asarray(rows.reshape(opponent.canonical.shape))
+
+
+def own_scores(
+    adversary: Adversary,
+    features: Float[np.ndarray, "N T f"],
+    opponent: Opponent,
+    settings: AdversarySettings,
+) -> Float[np.ndarray, "N T"] | None:
+    """What an adversary's own discriminator says of episodes, low for canonical.
+
+    None where its search measure has no classifier.
+    """
+    seen = standardise(canonical_scale(opponent.canonical), features).swapaxes(0, 1)
+    scores = settings.search_measure.score(adversary.measure, jnp.asarray(seen))
+    return None if scores is None else np.asarray(scores).T
 
 
 def group_actor(
@@ -201,7 +210,7 @@ def train_iteration(
     settings: AdversarySettings,
     seed: int,
 ) -> list[tuple[Adversary, Metrics]]:
-    """One iteration of every adversary: play, one policy update, one discriminator update.
+    """One iteration of every adversary: play, one policy update, one update of its measure.
 
     All randomness comes from (`seed`, iteration), so a group that was saved between two iterations
     goes on as if it had never stopped.
@@ -217,7 +226,7 @@ def train_iteration(
         policy_actor(opponent.robot, len(group) * settings.episodes, None),
         group_actor(policies, rng),
     )
-    canonical = canonical_rows(opponent)
+    canonical = canonical_motion(opponent)
     features = standardise(canonical_scale(opponent.canonical), episodes.features)
     seen = history_windows(episodes.human_observation, settings.memory)
     key = jax.random.fold_in(jax.random.key(seed), iteration)
@@ -247,15 +256,16 @@ def train_iteration(
 def _update(
     adversary: Adversary,
     experience: Experience,
-    canonical: Float[Array, "n f"],
+    canonical: Float[Array, "E T f"],
     key: PRNGKeyArray,
     *,
     settings: AdversarySettings,
 ) -> tuple[Adversary, Metrics]:
     observation, action, reward, weight, features = experience
-    ppo_key, gan_key, replay_key = jax.random.split(key, 3)
-    scores = score(adversary.discriminator.network, features)
-    penalty = PENALTIES[settings.penalty](scores)
+    keys, measure = jax.random.split(key, 3), settings.search_measure
+    motion, policy = Motion(features, weight, observation, action), adversary.learner.policy
+    penalty = measure.penalty(adversary.measure, canonical, motion, policy)
+    scores = measure.score(adversary.measure, features)
     rollout = Rollout(
         observation=observation,
         critic_observation=observation,
@@ -267,28 +277,21 @@ def _update(
         expert_action=jnp.zeros_like(action),
     )  # fmt: skip
     pace = pace_at(adversary.iteration, settings.iterations)
-    learner, losses = ppo_update(adversary.learner, rollout, ppo_key, settings.ppo, pace)
-    # Steps after a fault weigh nothing: canonical rows stand in for them.
-    sound = weight.reshape(-1, 1) > 0
-    filler = canonical[jnp.arange(sound.shape[0]) % canonical.shape[0]]
-    rows = jnp.where(sound, features.reshape(sound.shape[0], -1), filler)
-    replay = _remember(adversary, rows, replay_key, settings.discriminator)
-    noise = noise_level(adversary.iteration.astype(jnp.float32), settings.discriminator)
-    discriminator, health = update_discriminator(
-        adversary.discriminator, canonical, rows, replay, noise, gan_key, settings.discriminator
+    learner, losses = ppo_update(adversary.learner, rollout, keys[0], settings.ppo, pace)
+    state, health = measure.update(
+        adversary.measure, canonical, motion, policy, adversary.iteration, keys[1:]
     )
     metrics = Metrics(
         mean_return=jnp.zeros(()),
         success=jnp.zeros(()),
         penalty=_mean(penalty, weight),
-        naturalness_own=_mean(scores < 0, weight),
+        naturalness_own=unknown() if scores is None else _mean(scores < 0, weight),
         entropy=losses.entropy,
         health=health,
     )
     after = Adversary(
-        learner, discriminator, replay, adversary.penalty_std, adversary.lambda_,
-        adversary.iteration + 1,
-    )  # fmt: skip
+        learner, state, adversary.penalty_std, adversary.lambda_, adversary.iteration + 1
+    )
     return after, metrics
 
 
@@ -318,16 +321,3 @@ def shaped_reward(
     natural_weight = jnp.where(only_natural, 1.0, lambda_)
     total = -task_weight * reward - natural_weight * penalty
     return 0.1 * total / (task_weight + natural_weight)
-
-
-def _remember(
-    adversary: Adversary,
-    rows: Float[Array, "n f"],
-    key: PRNGKeyArray,
-    settings: DiscriminatorSettings,
-) -> Float[Array, "R f"]:
-    """The replay with this iteration's rows in place of the oldest; the first one fills it all."""
-    kept = rows[jax.random.randint(key, adversary.replay.shape[:1], 0, rows.shape[0])]
-    slot = jnp.arange(adversary.replay.shape[0]) // _REPLAY_ROWS
-    mine = slot == adversary.iteration % settings.replay_iterations
-    return jnp.where(((adversary.iteration == 0) | mine)[:, None], kept, adversary.replay)

@@ -8,21 +8,28 @@ gradient penalty, and class weights. With weights κ = w_c / w_a the optimum is
 
     D* = (q - κ p) / (q + κ p),   p canonical, q adversary,
 
-so that D < 0 exactly where q < κ p.
+so that D < 0 exactly where q < κ p. The same machinery trains the paper's logistic discriminator
+(appendix 'Proof on Discriminator and KL Divergence'), whose optimum is D* = log q / (κ p).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import optax
 from jaxtyping import Array, Float, PRNGKeyArray
 
+from rigid.naturalness.measure import Health
 from rigid.policies.networks import MLP, apply_mlp, init_mlp
+
+Network = Any
+"""Parameters of a discriminator, a pytree; an MLP where one sample is one row of features."""
+Score = Callable[[Network, Array], Array]
+"""Scores of samples under a network, one for each sample or each of its steps."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,18 +64,8 @@ class DiscriminatorSettings:
 class Discriminator(NamedTuple):
     """A discriminator in training."""
 
-    network: MLP
+    network: Network
     optimiser: optax.OptState
-
-
-class DiscriminatorHealth(NamedTuple):
-    """Means over one iteration's gradient steps."""
-
-    loss: Float[Array, ""]
-    score_canonical: Float[Array, ""]
-    score_adversary: Float[Array, ""]
-    accuracy_canonical: Float[Array, ""]
-    accuracy_adversary: Float[Array, ""]
 
 
 Penalty = Literal["amp", "paper_d2"]
@@ -81,6 +78,14 @@ PENALTIES: dict[str, Callable[[Array], Array]] = {
     "paper_d2": lambda score: score**2,
 }
 
+Loss = Literal["least_squares", "logistic"]
+
+LOSSES: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array]]] = {
+    # What a score costs on canonical motion, and on an adversary's.
+    "least_squares": (lambda score: (score + 1) ** 2, lambda score: (score - 1) ** 2),
+    "logistic": (jax.nn.softplus, lambda score: jax.nn.softplus(-score)),
+}
+
 
 def _optimiser(settings: DiscriminatorSettings) -> optax.GradientTransformation:
     return optax.adamw(settings.learning_rate, weight_decay=settings.weight_decay)
@@ -90,7 +95,11 @@ def init_discriminator(
     key: PRNGKeyArray, feature_size: int, settings: DiscriminatorSettings
 ) -> Discriminator:
     """A random discriminator over standardised features."""
-    network = init_mlp(key, (feature_size, *settings.hidden, 1))
+    return with_optimiser(init_mlp(key, (feature_size, *settings.hidden, 1)), settings)
+
+
+def with_optimiser(network: Network, settings: DiscriminatorSettings) -> Discriminator:
+    """A network that has not been trained yet."""
     return Discriminator(network, _optimiser(settings).init(network))
 
 
@@ -106,34 +115,42 @@ def noise_level(iteration: Float[Array, ""], settings: DiscriminatorSettings) ->
 
 
 def discriminator_loss(
-    network: MLP,
-    canonical: Float[Array, "n f"],
-    adversary: Float[Array, "m f"],
+    network: Network,
+    canonical: Float[Array, "n *sample"],
+    adversary: Float[Array, "m *sample"],
     settings: DiscriminatorSettings,
-) -> tuple[Float[Array, ""], DiscriminatorHealth]:
-    """Eq. 2 with class weights and a zero-centred gradient penalty on canonical samples."""
-    low, high = score(network, canonical), score(network, adversary)
-    slopes = jax.vmap(jax.grad(lambda x: score(network, x)))(canonical)
-    loss = (
-        settings.canonical_weight * ((low + 1) ** 2).mean()
-        + settings.adversary_weight * ((high - 1) ** 2).mean()
+    *,
+    judge: Score = score,
+    loss: Loss = "least_squares",
+) -> tuple[Float[Array, ""], Health]:
+    """Eq. 2 with class weights and a zero-centred gradient penalty on canonical samples.
+
+    A sample is whatever `judge` scores: a row of features, or steps of them.
+    """
+    low, high = judge(network, canonical), judge(network, adversary)
+    slopes = jax.vmap(jax.grad(lambda x: judge(network, x).sum()))(canonical)
+    of_canonical, of_adversary = LOSSES[loss]
+    total = (
+        settings.canonical_weight * of_canonical(low).mean()
+        + settings.adversary_weight * of_adversary(high).mean()
         + settings.gradient_penalty * (slopes**2).sum(axis=-1).mean()
     )
-    health = DiscriminatorHealth(
-        loss, low.mean(), high.mean(), (low < 0).mean(), (high >= 0).mean()
-    )
-    return loss, health
+    health = Health(total, low.mean(), high.mean(), (low < 0).mean(), (high >= 0).mean())
+    return total, health
 
 
 def update_discriminator(
     discriminator: Discriminator,
-    canonical: Float[Array, "n f"],
-    current: Float[Array, "m f"],
-    replay: Float[Array, "r f"],
+    canonical: Float[Array, "n *sample"],
+    current: Float[Array, "m *sample"],
+    replay: Float[Array, "r *sample"],
     noise: Float[Array, ""],
     key: PRNGKeyArray,
     settings: DiscriminatorSettings,
-) -> tuple[Discriminator, DiscriminatorHealth]:
+    *,
+    judge: Score = score,
+    loss: Loss = "least_squares",
+) -> tuple[Discriminator, Health]:
     """Takes `settings.steps` gradient steps on minibatches with fresh instance noise.
 
     Args:
@@ -144,11 +161,13 @@ def update_discriminator(
         noise: Standard deviation of the instance noise, same units.
         key: Consumed.
         settings: Static under `jit`.
+        judge: Scores samples; by default one row of features each.
+        loss: Least squares, or the logistic one of KL.
     """
     old = int(settings.minibatch * settings.replay_share)
     optimiser = _optimiser(settings)
 
-    def step(carry: Discriminator, step_key: Array) -> tuple[Discriminator, DiscriminatorHealth]:
+    def step(carry: Discriminator, step_key: Array) -> tuple[Discriminator, Health]:
         keys = jax.random.split(step_key, 5)
         new = _draw(keys[0], current, settings.minibatch - old)
         adversary = jnp.concatenate([new, _draw(keys[1], replay, old)])
@@ -156,7 +175,7 @@ def update_discriminator(
         adversary = adversary + noise * jax.random.normal(keys[3], adversary.shape)
         real = real + noise * jax.random.normal(keys[4], real.shape)
         gradient, health = jax.grad(discriminator_loss, has_aux=True)(
-            carry.network, real, adversary, settings
+            carry.network, real, adversary, settings, judge=judge, loss=loss
         )
         updates, state = optimiser.update(gradient, carry.optimiser, carry.network)
         return Discriminator(optax.apply_updates(carry.network, updates), state), health
@@ -165,5 +184,7 @@ def update_discriminator(
     return discriminator, jax.tree.map(jnp.mean, health)
 
 
-def _draw(key: PRNGKeyArray, rows: Float[Array, "n f"], count: int) -> Float[Array, "b f"]:
+def _draw(
+    key: PRNGKeyArray, rows: Float[Array, "n *sample"], count: int
+) -> Float[Array, "b *sample"]:
     return rows[jax.random.randint(key, (count,), 0, rows.shape[0])]

@@ -1,34 +1,37 @@
 """The held-out judge of naturalness: one recipe for every adversary, never the one it trained with.
 
 For each adversary the referee estimates its own log-ratio log q/p between the adversary's law q of
-the features and the canonical law p, by logistic regression with a small network. Pooling several
-adversaries into one class would judge their mixture instead. Naturalness is the hockey-stick
-overlap of the two laws, estimated on episodes that neither training nor validation saw:
+the features and the canonical law p, by logistic regression. Pooling several adversaries into one
+class would judge their mixture instead. Naturalness is the hockey-stick overlap of the two laws,
+estimated on episodes that neither training nor validation saw:
 
     x_κ = min(1, P_q[f < 0] + κ P_p[f ≥ 0]),   f = log(q/p) - log κ.
 
 For any fixed f its expectation before clipping is at least the true overlap ∫ min(q, κ p): a weak
 referee errs towards natural, never towards unnatural. κ = 4 is the paper's class weight.
+
+A referee is one of a small family, the member with the least log-loss on validation rows: a network
+and a linear judge for single steps; a network on the whole window and a linear judge of the
+window's summary for 16-step windows.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import jax
-import jax.numpy as jnp
 import numpy as np
-import optax
-from jaxtyping import Array, Float, PRNGKeyArray
+from jaxtyping import Float, PRNGKeyArray
 
+from rigid.naturalness.logistic import Recipe, Side, fit, logit, padded
 from rigid.naturalness.standardise import Scale, standardise
-from rigid.policies.networks import MLP, apply_mlp, init_mlp
+from rigid.naturalness.views import VIEWS
+from rigid.policies.networks import MLP
 
 HEADLINE_KAPPA = 4.0
 """The x axis: class weight of the paper's discriminator (appendix 'Improving GAN training')."""
-KAPPAS = (1.0, HEADLINE_KAPPA)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,14 +39,40 @@ class RefereeSettings:
     """One recipe for every adversary, robot and run of a task. All values ours."""
 
     hidden: tuple[int, ...] = (64, 64)
+    """Of the network that sees single steps."""
+    window_hidden: tuple[int, ...] = (32,)
+    """Of the network that sees whole windows: few, since windows of an episode overlap."""
     learning_rate: float = 2e-3
     weight_decay: float = 1e-4
     minibatch: int = 512
-    """Rows of each class in a gradient step."""
+    """Steps of each class in a gradient step."""
+    window_minibatch: int = 128
+    """Windows of each class in a gradient step."""
     block: int = 50
     """Gradient steps between two looks at the validation loss."""
     blocks: int = 16
     """Looks; the parameters of the best one are kept."""
+    folds: int = 4
+    """Of recorded episodes: a half trains, a quarter validates and a quarter tests at a time."""
+
+    def members(self, length: int) -> tuple[Member, ...]:
+        """The family that judges windows of `length` steps."""
+        if length == 1:
+            hidden, minibatch, linear = self.hidden, self.minibatch, "flat"
+        else:
+            hidden, minibatch, linear = self.window_hidden, self.window_minibatch, "summary"
+        recipe = Recipe(
+            hidden=hidden, learning_rate=self.learning_rate, weight_decay=self.weight_decay,
+            minibatch=minibatch, block=self.block, blocks=self.blocks,
+        )  # fmt: skip
+        return Member("flat", recipe), Member(linear, replace(recipe, hidden=()))
+
+
+class Member(NamedTuple):
+    """One of the family: what it sees, and how it is fitted."""
+
+    view: str
+    recipe: Recipe
 
 
 class Referee(NamedTuple):
@@ -51,10 +80,15 @@ class Referee(NamedTuple):
 
     network: MLP
     scale: Scale
+    """Of the network's input."""
+    length: int = 1
+    """Steps of the windows that it judges; 1 for single steps."""
+    view: str = "flat"
+    """How such a window becomes the input."""
 
 
 class Rows(NamedTuple):
-    """Features of one class, by use; each (n, f) and in the task's own units."""
+    """Features of one class, by use, in the task's own units; a row for each step."""
 
     train: Float[np.ndarray, "n f"]
     validation: Float[np.ndarray, "m f"]
@@ -67,9 +101,7 @@ def train_referee(
     settings: RefereeSettings,
     key: PRNGKeyArray,
 ) -> Referee:
-    """Fits log q/p by balanced logistic regression; keeps the best block on validation rows.
-
-    Equal class masses make the logit the log-ratio itself, whatever the numbers of rows.
+    """A referee of single steps: of its family the one with the least validation loss.
 
     Raises:
         ValueError: The two sides have different numbers of features.
@@ -80,16 +112,51 @@ def train_referee(
             f"the adversary's {adversary.train.shape[-1]}"
         )
     natural, other = (
-        [jnp.asarray(standardise(scale, rows), jnp.float32) for rows in side]
+        Side(*(padded(standardise(scale, rows)) for rows in side))
         for side in (canonical, adversary)
     )
-    return Referee(_fit(*natural, *other, key, settings=settings), scale)
+    return least_loss([
+        fit_member(Referee([], scale), member, natural, other, key)
+        for member in settings.members(1)
+    ])  # fmt: skip
 
 
-def log_ratio(referee: Referee, features: Float[np.ndarray, "*n f"]) -> Float[np.ndarray, "*n"]:
-    """Estimated log q/p of each row; negative where canonical motion is the likelier source."""
-    rows = standardise(referee.scale, np.asarray(features, dtype=np.float32))
-    return np.asarray(_logit(referee.network, rows))
+def fit_member(
+    blank: Referee, member: Member, canonical: Side, adversary: Side, key: PRNGKeyArray
+) -> tuple[Referee, float]:
+    """A member of the family and its validation loss.
+
+    Args:
+        blank: The referee without its network.
+        member: How to fit it.
+        canonical: Inputs of canonical motion, standardised.
+        adversary: Those of the adversary.
+        key: Consumed.
+    """
+    rng = np.random.default_rng(np.asarray(jax.random.key_data(key)))
+    network, loss = fit(canonical, adversary, rng, member.recipe)
+    return blank._replace(network=network), loss
+
+
+def least_loss(fitted: Sequence[tuple[Referee, float]]) -> Referee:
+    """The best of a family."""
+    return min(fitted, key=lambda found: found[1])[0]
+
+
+def log_ratio(referee: Referee, features: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
+    """Estimated log q/p of each row; negative where canonical motion is the likelier source.
+
+    Args:
+        referee: A judge of single steps or of windows.
+        features: (…, f) for the one, (…, L, f) for the other, in the task's own units.
+
+    Returns:
+        A number for each row or window, (…).
+    """
+    rows = np.asarray(features, dtype=np.float32)
+    if referee.length > 1:
+        rows = VIEWS[referee.view](rows)
+    return logit(referee.network, standardise(referee.scale, rows))
 
 
 def overlap(
@@ -111,66 +178,3 @@ def overlap(
     passed = float(np.mean(np.asarray(adversary) < threshold))
     alarms = float(np.mean(np.asarray(canonical) >= threshold))
     return min(1.0, passed + kappa * alarms)
-
-
-class _Training(NamedTuple):
-    network: MLP
-    optimiser: optax.OptState
-
-
-class _Selection(NamedTuple):
-    training: _Training
-    best: MLP
-    best_loss: Float[Array, ""]
-
-
-@jax.jit
-def _logit(network: MLP, rows: Float[Array, "*n f"]) -> Float[Array, "*n"]:
-    return apply_mlp(network, rows)[..., 0]
-
-
-def _loss(
-    network: MLP, canonical: Float[Array, "n f"], adversary: Float[Array, "m f"]
-) -> Float[Array, ""]:
-    low, high = apply_mlp(network, canonical)[..., 0], apply_mlp(network, adversary)[..., 0]
-    return 0.5 * (jax.nn.softplus(low).mean() + jax.nn.softplus(-high).mean())
-
-
-@partial(jax.jit, static_argnames="settings")
-def _fit(
-    canonical: Float[Array, "n f"],
-    canonical_validation: Float[Array, "m f"],
-    adversary: Float[Array, "k f"],
-    adversary_validation: Float[Array, "l f"],
-    key: PRNGKeyArray,
-    *,
-    settings: RefereeSettings,
-) -> MLP:
-    optimiser = optax.adamw(settings.learning_rate, weight_decay=settings.weight_decay)
-    init_key, run_key = jax.random.split(key)
-    network = init_mlp(init_key, (canonical.shape[-1], *settings.hidden, 1), last_scale=0.1)
-
-    def step(carry: _Training, step_key: Array) -> tuple[_Training, None]:
-        network, state = carry
-        keys = jax.random.split(step_key)
-        batches = [
-            rows[jax.random.randint(k, (settings.minibatch,), 0, rows.shape[0])]
-            for k, rows in zip(keys, (canonical, adversary), strict=True)
-        ]
-        updates, state = optimiser.update(jax.grad(_loss)(network, *batches), state, network)
-        return _Training(optax.apply_updates(network, updates), state), None
-
-    def block(carry: _Selection, block_key: Array) -> tuple[_Selection, None]:
-        training, best, best_loss = carry
-        keys = jax.random.split(block_key, settings.block)
-        training, _ = jax.lax.scan(step, training, keys)
-        loss = _loss(training.network, canonical_validation, adversary_validation)
-        better = loss < best_loss
-        best = jax.tree.map(lambda new, old: jnp.where(better, new, old), training.network, best)
-        return _Selection(training, best, jnp.minimum(loss, best_loss)), None
-
-    start = _Selection(
-        _Training(network, optimiser.init(network)), network, jnp.asarray(jnp.inf, jnp.float32)
-    )
-    end, _ = jax.lax.scan(block, start, jax.random.split(run_key, settings.blocks))
-    return end.best

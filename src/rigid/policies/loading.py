@@ -23,7 +23,7 @@ from rigid.policies.native import (
 )
 from rigid.policies.passive import PassivePolicy
 from rigid.policies.protocol import Policy
-from rigid.tasks.protocol import AgentSpec, Task
+from rigid.tasks.protocol import AgentSpec, BringsPolicies, Task
 
 BUNDLED: Traversable = resources.files("rigid") / "bundled"
 """Where the policies that ship with RIGID live: `<task name>/<policy name>/`."""
@@ -68,6 +68,8 @@ def load_policy(
 def builtin_names(task: Task, agent: Agent) -> tuple[str, ...]:
     """Names that `builtin:` takes for `agent` of `task`, sorted."""
     names = {_PASSIVE} if agent == "human" else set()
+    if isinstance(task, BringsPolicies):
+        names |= set(task.builtin_policies(agent))
     folder = BUNDLED / task.name
     for entry in folder.iterdir() if folder.is_dir() else ():
         if (entry / CARD_FILE).is_file():
@@ -105,7 +107,7 @@ def policy_hash(policy: GaussianPolicy | PassivePolicy | Path | str) -> str:
     return hash_weights(architecture_of(stored), weights_of(stored))
 
 
-def _load_builtin(name: str, task: Task, agent: Agent) -> GaussianPolicy:
+def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
     names = builtin_names(task, agent)
     if name not in names:
         listed = ", ".join(_BUILTIN + known for known in names) or "none"
@@ -113,6 +115,9 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> GaussianPolicy:
             f"{agent} '{_BUILTIN}{name}' is unknown for task {task.name!r}"
             f"{_suggestion(name, names)}; builtin {agent}s: {listed}"
         )
+    brought = task.builtin_policies(agent) if isinstance(task, BringsPolicies) else {}
+    if name in brought:
+        return brought[name]
     with resources.as_file(BUNDLED / task.name / name) as directory:
         return _load_directory(directory, _BUILTIN + name, task, agent)
 

@@ -101,13 +101,15 @@ def band(frontier: Frontier) -> dict[str, Any]:
 
 
 def learning_curves(adversary: Path) -> dict[str, list[float]]:
-    """One adversary's training, iteration by iteration, from its directory."""
+    """One adversary's training, iteration by iteration, from its directory; known ones only."""
     path = adversary / "metrics.jsonl"
     cure = "measure again to get its learning curves back"
     try:
         rows = [json.loads(line) for line in read_bytes(path, cure=cure).splitlines()]
-        curves = {name: [float(row[key]) for row in rows] for name, key in _LEARNING.items()}
-        return {"iteration": [float(row["iteration"]) for row in rows], **curves}
+        curves = {name: [row[key] for row in rows] for name, key in _LEARNING.items()}
+        known = {name: values for name, values in curves.items() if None not in values}
+        numbers = {name: [float(value) for value in values] for name, values in known.items()}
+        return {"iteration": [float(row["iteration"]) for row in rows], **numbers}
     except (ValueError, KeyError, TypeError):
         raise UserError(f"{path} is damaged: {cure}") from None
 

@@ -10,10 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import Any, Literal, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+
+from rigid.policies.protocol import Policy
 
 
 @dataclass(frozen=True)
@@ -112,6 +114,15 @@ class Task(Protocol):
 
     def describe(self) -> Mapping[str, Any]:
         """Name, version and parameters, as JSON: two tasks are equal when these are."""
+        ...
+
+
+@runtime_checkable
+class BringsPolicies(Protocol):
+    """A task whose `builtin:NAME` policies are made in memory, such as exact ones; optional."""
+
+    def builtin_policies(self, agent: Literal["robot", "human"]) -> Mapping[str, Policy]:
+        """Policies of `agent` by name."""
         ...
 
 

@@ -39,7 +39,7 @@ def make_task(name: str, **parameters: Any) -> Task:
         >>> make_task("itch-scraching")
         Traceback (most recent call last):
         rigid.errors.UserError: unknown task 'itch-scraching', did you mean 'itch-scratching'?
-            Tasks: itch-scratching
+            Tasks: analytic/hand-tracking, analytic/offset-catch, itch-scratching
     """
     names = task_names()
     if name not in names:
@@ -99,7 +99,23 @@ def _itch_scratching() -> _Recipe:
     return _Recipe(build, _fields(ItchScratchingParameters))
 
 
-_BUILTIN: dict[str, Callable[[], _Recipe]] = {"itch-scratching": _itch_scratching}
+def _offset_catch() -> _Recipe:
+    from rigid.tasks.analytic.offset_catch import OffsetCatch
+
+    return _Recipe(OffsetCatch, ("cost", "tolerance"))
+
+
+def _hand_tracking() -> _Recipe:
+    from rigid.tasks.analytic.hand_tracking import HandTracking
+
+    return _Recipe(HandTracking, ("gain",))
+
+
+_BUILTIN: dict[str, Callable[[], _Recipe]] = {
+    "analytic/hand-tracking": _hand_tracking,
+    "analytic/offset-catch": _offset_catch,
+    "itch-scratching": _itch_scratching,
+}
 """Called only for the task that is asked for, since MuJoCo takes its time to load."""
 
 

@@ -57,7 +57,7 @@ def test_the_right_arm_starts_where_the_original_has_it(person, body):
 
 
 def test_actions_are_in_the_order_of_the_originals_joints():
-    assert human.ARM_JOINTS == tuple(LIMITS_DEG)
+    assert tuple(LIMITS_DEG) == human.ARM_JOINTS
 
 
 @pytest.mark.parametrize(("joint", "moves"), [("elbow", 0.29), ("forearm_roll", 0.0)])

@@ -27,7 +27,10 @@ UNCHECKED = runpy.run_path(parameters.__file__)["ItchScratchingParameters"]
         ({"servo": "strong"}, "servo is 'strong', but must be paper or datasheet"),
         ({"horizon": 0}, "horizon is 0, but must be at least 1 step"),
         ({"physics_step": 0.05}, r"physics_step is 0.05, but must be in \(0, 0.02\] s"),
-        ({"weights": RewardWeights(scratch=-1.0)}, r"weights\.scratch is -1.0, but must be a number"),
+        (
+            {"weights": RewardWeights(scratch=-1.0)},
+            r"weights\.scratch is -1.0, but must be a",
+        ),
         ({"weights": RewardWeights(action=float("nan"))}, r"weights\.action is nan, but must be"),
         ({"substeps": 0}, "substeps is 0, but must be at least 1"),
     ],

@@ -1,0 +1,60 @@
+"""Canonical episodes by use: whole episodes, none twice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rigid.compute.canonical import divide_recorded
+from rigid.data.episodes import CanonicalEpisodes
+from rigid.errors import UserError
+
+FILE = Path("people.npz")
+
+
+def recorded(count):
+    """Episode i holds i everywhere."""
+    numbers = np.arange(count, dtype=np.float32)
+    return CanonicalEpisodes(
+        features=np.tile(numbers[:, None, None], (1, 5, 2)), observations=None, actions=None,
+        seeds=np.arange(count), returns=numbers, success=numbers, task={"name": "toy"},
+        feature_names=("a", "b"), source="recorded", provenance={},
+    )  # fmt: skip
+
+
+def divided(count):
+    return divide_recorded(recorded(count), search=40, folds=4, where=FILE)
+
+
+@pytest.mark.parametrize(
+    ("count", "search", "folds"), [(12, 4, 4), (60, 20, 4), (400, 40, 4), (401, 40, 1)]
+)
+def test_people_are_divided_between_search_and_folds(count, search, folds):
+    found = divided(count)
+    assert (len(found.search), len(found.folds)) == (search, folds)
+    for fold in found.folds:
+        parts = [part[:, 0, 0] for part in (fold.train, fold.validation, fold.test)]
+        assert all(len(part) for part in parts)
+        everyone = np.concatenate([found.search.returns, *parts])
+        assert sorted(everyone) == list(range(count))
+
+
+def test_features_stay_with_their_episode():
+    found = divided(24).referee
+    np.testing.assert_array_equal(found.features[:, 0, 0], found.returns)
+    np.testing.assert_array_equal(found.seeds, found.returns)
+
+
+def test_eleven_episodes_are_too_few():
+    with pytest.raises(UserError, match=r"people\.npz holds 11 recorded episodes, .* at least 12"):
+        divided(11)
+
+
+def test_episodes_of_unknown_return_are_refused():
+    people = recorded(20)
+    people = replace(people, returns=np.where(people.returns == 3, np.nan, people.returns))
+    with pytest.raises(UserError, match=r"people\.npz has episodes of unknown return"):
+        divide_recorded(people, search=40, folds=4, where=FILE)

@@ -1,0 +1,82 @@
+"""Which numbers naturalness sees: the same ones while episodes are played and in stored ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rigid.data.recording import record
+from rigid.errors import UserError
+from rigid.naturalness.features import choose_features, seen_through
+from tests.toys import Follower, Pointer, ToyReach
+
+TASK = ToyReach()
+
+
+class Silent(ToyReach):
+    """Declares no features."""
+
+    feature_names = ()
+
+    def features(self, step):
+        return step.features[:, :0]
+
+
+@pytest.mark.parametrize(
+    ("text", "label", "names"),
+    [
+        ("default", "default", ("hand", "goal")),
+        ("goal,hand", "default", ("hand", "goal")),
+        ("goal", "goal", ("goal",)),
+        ("observation", "observation", ("robot", "hand", "goal")),
+        ("observation+action", "observation+action", ("robot", "hand", "goal", "action_0")),
+    ],
+)
+def test_choices_by_name(text, label, names):
+    chosen = choose_features(text, TASK)
+    assert (chosen.label, chosen.names) == (label, names)
+
+
+def test_a_task_without_features_is_seen_by_observation_and_action():
+    assert choose_features("default", Silent()).label == "observation+action"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "gaol",
+            r"feature 'gaol' is unknown for task 'toy-reach', did you mean 'goal'\? features:",
+        ),
+        ("hand,hand", r"feature 'hand' is named twice: name each one once"),
+    ],
+)
+def test_a_bad_choice_is_refused(text, message):
+    with pytest.raises(UserError, match=message):
+        choose_features(text, TASK)
+
+
+def test_the_default_leaves_the_task_alone():
+    assert seen_through(TASK, choose_features("default", TASK)) is TASK
+
+
+@pytest.mark.parametrize("text", ["goal", "observation", "observation+action"])
+@pytest.mark.parametrize("task", [TASK, Silent()], ids=["declares features", "declares none"])
+def test_playing_gives_what_stored_episodes_give(text, task):
+    if text == "goal" and not task.feature_names:
+        pytest.skip("it has no feature of that name")
+    chosen = choose_features(text, task)
+    players = {"robot": Follower(), "human": Pointer(noise=3.0)}  # Often beyond ±1.
+    stored = record(task, **players, episodes=4, seed=0, batch=4, provenance={})
+    played = record(
+        seen_through(task, chosen), **players, episodes=4, seed=0, batch=4, provenance={}
+    )
+    taken = chosen.of(stored.features, stored.observations, stored.actions)
+    np.testing.assert_array_equal(played.features, taken)
+    assert played.feature_names == chosen.names
+
+
+def test_actions_count_as_the_task_takes_them():
+    chosen = choose_features("observation+action", TASK)
+    nothing = np.zeros((1, 2)), np.zeros((1, 3))
+    assert chosen.of(*nothing, np.array([[7.0]]))[0, -1] == 1
