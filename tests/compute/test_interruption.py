@@ -103,6 +103,12 @@ def test_learning_curves_of_a_killed_run_have_neither_gaps_nor_repeats(disturbed
         assert (disturbed.frontier.directory / place).read_bytes() == path.read_bytes()
 
 
+def test_discriminators_of_a_killed_run_are_seen_alike(disturbed, single_run):
+    place = "discriminators/s0.json"
+    stored = [run.directory / place for run in (disturbed.frontier, single_run)]
+    assert stored[0].read_bytes() == stored[1].read_bytes()
+
+
 def test_an_interrupted_command_exits_with_130_and_says_how_to_go_on(disturbed):
     assert disturbed.exit_code == 130
     assert disturbed.output == ""

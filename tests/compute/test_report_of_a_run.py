@@ -63,6 +63,16 @@ def test_every_adversary_has_its_learning_curves(payload, small_run):
         assert {len(values) for values in curves.values()} == {TINY.iterations}
 
 
+def test_every_adversary_has_its_discriminator_examined_but_for_old_runs(payload, broken_copy):
+    judged = [set(seen["judged"]) for seen in payload["discriminators"].values()]
+    assert set.union(*judged) == set(payload["learning"])
+    assert all(seen["poses"] is None for seen in payload["discriminators"].values())
+    shutil.rmtree(broken_copy / "discriminators")
+    write_report(broken_copy)
+    settings = read_settings(RunDirectory(broken_copy))
+    assert gather(load_frontier(broken_copy), settings)["discriminators"] is None
+
+
 def test_the_passive_human_is_a_reference(payload):
     assert {"naturalness", "adversarialness", "success"} <= set(payload["passive"])
 

@@ -11,7 +11,7 @@ import pytest
 from scipy.stats import multivariate_normal, norm
 
 from rigid.errors import UserError
-from rigid.naturalness.choice import check_measure
+from rigid.naturalness.choice import MEASURES, check_measure, measure_named
 from rigid.naturalness.ensemble import Ensemble, EnsembleState
 from rigid.naturalness.gan import Gan
 from rigid.naturalness.kl import ExactKL, log_ratio
@@ -242,3 +242,16 @@ def test_the_closed_form_of_the_mmd_test_is_right():
         axis=0,
     )
     assert exact_mmd2(1.5) == pytest.approx((q - p) @ kernels @ (q - p), abs=1e-4)
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_what_is_stored_scores_as_the_measure_did(name):
+    measure = measure_named(name, DiscriminatorSettings(hidden=(8, 8)), "amp")
+    canonical = jnp.asarray(np.random.default_rng(0).normal(size=(4, 20, 3)), jnp.float32)
+    state = measure.start(jax.random.key(0), canonical, HUMAN)
+    seen = canonical.swapaxes(0, 1)
+    scores = measure.score(state, seen)
+    kept = measure.score_kept(measure.kept(state), seen)
+    assert (scores is None) == (kept is None) == (name in {"kl", "mmd"})
+    if scores is not None:
+        np.testing.assert_array_equal(kept, scores)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))  # So that it runs as a script and under importlib.
-from synthetic_motion import FRAMES, episode, scene
+from synthetic_motion import FRAMES, episode, moments, scene
 
 from rigid.report import build_report
 
@@ -128,6 +128,34 @@ def _learning(rng, point):
     }  # fmt: skip
 
 
+def _discriminators(rng, points):
+    """By seed; the more natural a human, the sooner noise confuses its discriminator."""
+    levels = [0.0, 0.1, 0.3, 1.0, 3.0, 10.0]
+    poses, found = 6, {}
+    for seed in sorted({p["seed"] for p in points}):
+        own = [p for p in points if p["seed"] == seed]
+        clips = {p["id"]: moments(seed, 1 - p["naturalness"], poses) for p in own}
+        judged = {p["id"]: _judged(rng, p, own, levels, poses) for p in own}
+        found[str(seed)] = {
+            "levels": levels, "canonical_episodes": 40, "adversary_episodes": 20, "judged": judged,
+            "poses": {"levels": levels[::2], "noisy": moments(seed, 0.4, 3 * poses), "own": clips},
+        }  # fmt: skip
+    return found
+
+
+def _judged(rng, point, mates, levels, poses):
+    def accuracy(leniency):
+        fall = leniency * (0.5 - 0.3 * (1 - point["naturalness"]))
+        canonical = [1 - fall * level / (level + 1) for level in levels]
+        return {
+            "canonical": canonical,
+            "adversaries": {m["id"]: 1 - m["naturalness"] for m in mates},
+        }
+
+    scores = {"noisy": rng.normal(-0.4, 0.6, (3, poses)), "own": rng.normal(0.4, 0.6, poses)}
+    return {"discriminator": accuracy(1.0), "referee": accuracy(0.8), "scores": scores}
+
+
 def sample_payload(seeds: int = 3, *, replays: int | None = None) -> dict:
     """A payload with 18 points per seed; `replays` of them have motions, worst natural first."""
     rng = np.random.default_rng(7)
@@ -155,6 +183,7 @@ def sample_payload(seeds: int = 3, *, replays: int | None = None) -> dict:
         "stamp": "synthetic sample: not a measurement",
         "passive": {"naturalness": 0.34, "adversarialness": 0.31, "success": 0.45, "return": -17.2},
         "learning": {p["id"]: _learning(rng, p) for p in points},
+        "discriminators": _discriminators(rng, points),
     }  # fmt: skip
 
 

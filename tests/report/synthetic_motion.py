@@ -190,6 +190,17 @@ def episode(seed: int, harm: float) -> dict:
     }  # fmt: skip
 
 
+def moments(seed: int, harm: float, count: int) -> dict:
+    """Some poses of the arm alone."""
+    elbow, wrist, tips, upper, lower = _arm(harm, np.random.default_rng(seed))
+    limbs = ((SHOULDER + 0 * elbow, elbow, upper), (elbow, wrist, lower), (wrist, tips, lower))
+    frames = np.linspace(0, FRAMES - 1, count).astype(int)
+    poses = np.array([
+        [[*((p[f] + q[f]) / 2), *_z_to(axis[f])] for p, q, axis in limbs] for f in frames
+    ])  # fmt: skip
+    return {"frames": count, "bodies": MOVING[-3:], "poses": encode_poses(poses)}
+
+
 def _rotate(quaternion, vector):
     w, xyz = quaternion[0], quaternion[1:]
     return vector + 2 * np.cross(xyz, np.cross(xyz, vector) + w * vector)

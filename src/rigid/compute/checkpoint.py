@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -34,13 +36,31 @@ def save_arrays(path: Path, arrays: Mapping[str, np.ndarray]) -> None:
     write_atomically(path, buffer.getvalue())
 
 
-def load_tree(path: Path, template: _Tree) -> _Tree:
+def load_arrays(path: Path, *, cure: str) -> dict[str, np.ndarray]:
+    """What `save_arrays` wrote.
+
+    Raises:
+        UserError: The file is missing or damaged; the message ends with the `cure`.
+    """
+    stored = io.BytesIO(read_bytes(path, cure=cure))
+    try:
+        with np.load(stored, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
+    except (ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+        raise UserError(f"{path} cannot be read ({error}): {cure}") from None
+
+
+def load_tree(
+    path: Path,
+    template: _Tree,
+    *,
+    cure: str = "delete this file to train from the start of its group",
+) -> _Tree:
     """Reads a tree of the same shape as `template`.
 
     Raises:
         UserError: The file is missing, damaged, or holds other arrays than `template`.
     """
-    cure = "delete this file to train from the start of its group"
     try:
         arrays = load(read_bytes(path, cure=cure))
     except SafetensorError as error:

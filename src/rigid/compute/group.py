@@ -94,7 +94,7 @@ def run_group(
     if done.exists():
         advance(steps * len(plan.lambdas))
         return _read_done(done, plan)
-    group, history = _train(inputs, plan, advance)
+    group, history = train_group(inputs, plan, advance)
     policies = [adversary.learner.policy for adversary in group]
     court = Court(inputs.task, inputs.opponent, inputs.ruler, inputs.preset, inputs.settings)
     judged = judge(court, policies, plan.entropy)
@@ -139,9 +139,14 @@ def _read_done(path: Path, plan: GroupPlan) -> list[dict[str, Any]]:
     return points
 
 
-def _train(
-    inputs: GroupInputs, plan: GroupPlan, advance: Callable[[int], None]
+def train_group(
+    inputs: GroupInputs, plan: GroupPlan, advance: Callable[[int], None] = lambda _: None
 ) -> tuple[list[Adversary], list[list[Row]]]:
+    """Trains a group, or goes on from its checkpoint, which stays; its policies are stored.
+
+    Returns:
+        The adversaries, and what each iteration saw of each of them.
+    """
     keys = jax.random.split(jax.random.key(plan.entropy), len(plan.lambdas))
     group = [
         start_adversary(inputs.opponent, inputs.settings, lambda_, key)

@@ -10,6 +10,7 @@ import numpy as np
 
 from rigid.compute.budget import FIXED_SECONDS, TRAINING_SHARE
 from rigid.compute.clock import Clock
+from rigid.compute.discriminators import write_discriminators
 from rigid.compute.group import GroupInputs, GroupPlan, json_lambda, run_group
 from rigid.compute.preparation import (
     Prepared,
@@ -75,6 +76,7 @@ def measure_robot(
     lambdas: Sequence[float] | None = None,
     memory: int = 1,
     search_measure: str = DEFAULT_MEASURE,
+    settings: AdversarySettings | None = None,
     listener: Listener | None = None,
 ) -> Frontier:
     """Measures a robot into `out`, or goes on where an earlier call stopped.
@@ -87,14 +89,23 @@ def measure_robot(
         lambdas: Exactly these λ, without refinement; 0 and inf are allowed.
         memory: Observations that an adversary acts on.
         search_measure: What holds adversaries close; never what they are judged by.
+        settings: How adversaries are trained, in place of what the preset, `memory` and
+            `search_measure` say; for studies of the search itself.
         listener: Told of progress.
 
     Raises:
         UserError: Bad input; nothing was overwritten.
+        ValueError: `settings` have another budget than the preset.
     """
     listener = listener or Silence()
     clock = Clock()
-    settings = settings_for(preset, memory, search_measure)
+    if settings is None:
+        settings = settings_for(preset, memory, search_measure)
+    elif (settings.iterations, settings.episodes) != (preset.iterations, preset.episodes):
+        raise ValueError(
+            f"settings train for {settings.iterations} iterations of {settings.episodes} episodes, "
+            f"but preset {preset.name!r} for {preset.iterations} of {preset.episodes}"
+        )
     chosen, lambdas = seeds_of(preset, seeds), lambdas_of(lambdas)
     check_place(out)
     prepared = prepare(subject, preset, settings)
@@ -138,7 +149,9 @@ def _measured(
     listener.begin(steps, FIXED_SECONDS + steps / speed)
     points: list[dict[str, Any]] = []
     for seed in opened.seeds:
-        points += _search(inputs, seed, lambdas, advance)
+        found = _search(inputs, seed, lambdas, advance)
+        write_discriminators(inputs, seed, [point["id"] for point in found])
+        points += found
     headline = _headline(points, prepared, opened.seeds)
     passive = passive_reference(prepared.task, prepared, preset)
     clock.keep()

@@ -38,7 +38,6 @@ from rigid.presets import Preset
 from rigid.tasks.protocol import Task, adversarialness
 
 CANONICAL_FILE = "canonical.npz"
-_SEARCH_SEED, _RULER_SEED = 0, 1  # Of recordings: the search's episodes and the referee's.
 _BLOCK = 100  # Episodes played side by side in every recording.
 
 
@@ -53,6 +52,20 @@ class Subject:
     """A file of canonical episodes; by default the robot's own, or a fresh recording."""
     features: str = DEFAULT
     """What naturalness sees of the human, for search and referee alike; see `choose_features`."""
+    canonical_draw: int = 0
+    """Which draw of canonical play this is: the referee's episodes, the deviation of reward and,
+    where `canonical` names no file, the search's episodes. Draw 0 is everybody's, and alone takes
+    the episodes that lie beside the robot; others show what a wholly new measurement would say."""
+
+    @property
+    def search_seed(self) -> int:
+        """Of the recording that the search sees."""
+        return 2 * self.canonical_draw
+
+    @property
+    def ruler_seed(self) -> int:
+        """Of the recording that referees see; no recording's seed serves twice, over all draws."""
+        return 2 * self.canonical_draw + 1
 
 
 @dataclass(frozen=True)
@@ -77,6 +90,8 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
     Raises:
         UserError: Something the user named does not exist, is damaged or does not fit.
     """
+    if subject.canonical_draw < 0:
+        raise UserError(f"canonical_draw is {subject.canonical_draw}, but must be 0 or more")
     task, features = subject.task, choose_features(subject.features, subject.task)
     if task.return_range is None:
         raise UserError(
@@ -99,7 +114,7 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
     canonical, played = _canonical(subject, robot, human, preset, features, referee)
     ruler = Ruler(canonical.folds, task.return_range, referee)
     begun = time.perf_counter()
-    reward_std = _reward_std(task, robot, human)
+    reward_std = _reward_std(task, robot, human, subject.canonical_draw)
     spent = time.perf_counter() - begun
     search = canonical.search
     opponent = Opponent(robot, human.parameters, search.features, search.seeds, reward_std)
@@ -113,6 +128,7 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
         identity={
             **_identity(task, robot, human, canonical.whole, preset, settings),
             "features": features.label,
+            "canonical_draw": subject.canonical_draw,
         },
     )
 
@@ -151,6 +167,11 @@ def _canonical(
     path = _canonical_path(subject)
     given = None if path is None else load_episodes(path, task=subject.task)
     if path is not None and given is not None and given.source == "recorded":
+        if subject.canonical_draw:
+            raise UserError(
+                f"canonical_draw is {subject.canonical_draw}, but {path} holds recorded people, "
+                "who cannot be played again: leave it at 0"
+            )
         search, folds = preset.search_canonical, settings.folds
         divided = divide_recorded(seen(given), search=search, folds=folds, where=path)
         return divided._replace(whole=given), 0
@@ -158,12 +179,14 @@ def _canonical(
     if given is None:
         count = _played(preset.search_canonical)
         given = record(
-            subject.task, robot, human, episodes=preset.search_canonical, seed=_SEARCH_SEED,
-            batch=_BLOCK, provenance={"robot": subject.robot, "human": subject.human},
+            subject.task, robot, human, episodes=preset.search_canonical,
+            seed=subject.search_seed, batch=_BLOCK,
+            provenance={"robot": subject.robot, "human": subject.human},
         )  # fmt: skip
     held_out = record(
-        subject.task, robot, human, episodes=referee, seed=_RULER_SEED, batch=_BLOCK, provenance={}
-    )
+        subject.task, robot, human, episodes=referee, seed=subject.ruler_seed, batch=_BLOCK,
+        provenance={},
+    )  # fmt: skip
     divided = divide_synthetic(seen(given), seen(held_out))
     return divided._replace(whole=given), count + _played(referee)
 
@@ -192,15 +215,17 @@ def _canonical_path(subject: Subject) -> Path | None:
     """The user's file, else the episodes that lie beside the robot, if there are any."""
     if subject.canonical is not None:
         return Path(subject.canonical)
+    if subject.canonical_draw:
+        return None
     name = subject.robot.removeprefix("builtin:")
     folder = BUNDLED / subject.task.name / name if name != subject.robot else Path(name)
     file = Path(str(folder)) / CANONICAL_FILE
     return file if file.exists() else None
 
 
-def _reward_std(task: Task, robot: Policy, human: GaussianPolicy) -> float:
+def _reward_std(task: Task, robot: Policy, human: GaussianPolicy, draw: int) -> float:
     """Per-step standard deviation of canonical reward, σ_R of the search."""
-    rng = phase_rng(0, "canonical")
+    rng = phase_rng(draw, "canonical")
     starts = rng.integers(2**31, size=_BLOCK)
     episodes = play_with(task, robot, policy_actor(human, _BLOCK, rng), starts)
     return max(float(episodes.reward.std()), 1e-6)

@@ -28,6 +28,10 @@ from rigid.policies.protocol import Policy
 from rigid.presets import Preset
 from rigid.tasks.protocol import Task
 
+KEPT_EPISODES = 20
+"""Scored episodes whose features are stored, for other discriminators to judge: 2,000 steps of itch
+scratching. Ours."""
+
 
 @dataclass(frozen=True)
 class Ruler:
@@ -113,6 +117,7 @@ def score(
             **measure(endings, mine, court.task, court.ruler.return_range),
         }
         companion = slice(2 * index, 2 * index + 2)
+        kept = scored.part(slice(KEPT_EPISODES))
         arrays = {
             "seeds": starts,
             **{name: column[mine] for name, column in endings._asdict().items()},
@@ -121,6 +126,8 @@ def score(
             "canonical_returns": companions.returns[companion],
             "canonical_outcome": companions.outcome[companion],
             "canonical_snapshots": films[companion],
+            "features": kept.features,
+            "sound": kept.sound,
         }
         results.append((point, arrays))
     return results

@@ -55,9 +55,10 @@ class AdversarySettings:
     """What holds the adversary close: a name of `rigid.naturalness.choice.MEASURES`."""
     penalty: str = "amp"
     """Which function of a discriminator's score is penalised: `amp` or `paper_d2`."""
-    natural_start: float = 0.3
-    """From this λ on an adversary starts at the synthetic human, below it from random weights: a
-    canonical start stays natural but is still harmless when the budget ends (measured). Ours."""
+    natural_start: float = 0.1
+    """From this λ on an adversary starts at the synthetic human, below it from random weights. A
+    canonical start finds natural failures that random weights miss (`benchmarks/planted`, λ about
+    .2); at the sabotage end it needs more steps to be as harmful (measured). Ours."""
     ppo: PPOSettings = field(
         default_factory=lambda: PPOSettings(
             learning_rate=5e-4, minibatch=1200, update_normaliser=False, signal_floor=0.3
@@ -124,7 +125,7 @@ class Metrics(NamedTuple):
     health: Health
 
 
-_PHASES = ("train", "referee", "score", "canonical")
+_PHASES = ("train", "referee", "score", "canonical", "discriminators")
 
 
 def phase_rng(seed: int, phase: str, number: int = 0) -> np.random.Generator:

@@ -69,9 +69,7 @@ class Ensemble:
         self, state: EnsembleState, features: Float[Array, "T N f"]
     ) -> Float[Array, "T N"] | None:
         """The largest score of the members that have one: canonical where all say so."""
-        scores = [member.score(own, features) for member, own in self._pairs(state)]
-        known = [each for each in scores if each is not None]
-        return jnp.stack(known).max(axis=0) if known else None
+        return self.score_kept(self.kept(state), features)
 
     def update(
         self,
@@ -96,6 +94,15 @@ class Ensemble:
     def kept(self, state: EnsembleState) -> list[Any]:
         """What the members keep."""
         return [member.kept(own) for member, own in self._pairs(state)]
+
+    def score_kept(
+        self, kept: list[Any], features: Float[Array, "T N f"]
+    ) -> Float[Array, "T N"] | None:
+        """The largest score of the members that have one."""
+        pairs = zip(self.members, kept, strict=True)
+        scores = [member.score_kept(own, features) for member, own in pairs]
+        known = [each for each in scores if each is not None]
+        return jnp.stack(known).max(axis=0) if known else None
 
     def _pairs(self, state: EnsembleState) -> Iterator[tuple[Measure, Any]]:
         return zip(self.members, state.members, strict=True)

@@ -83,7 +83,7 @@ class Gan:
 
     def score(self, state: GanState, features: Float[Array, "T N f"]) -> Float[Array, "T N"]:
         """D of every step, noise off."""
-        return self.sight.scores(state.discriminator.network, features)
+        return self.score_kept(self.kept(state), features)
 
     def update(
         self,
@@ -111,6 +111,10 @@ class Gan:
     def kept(self, state: GanState) -> Network:
         """The network."""
         return state.discriminator.network
+
+    def score_kept(self, kept: Network, features: Float[Array, "T N f"]) -> Float[Array, "T N"]:
+        """D of every step, noise off."""
+        return self.sight.scores(kept, features)
 
     def _of(self, scores: Float[Array, "*n"]) -> Float[Array, "*n"]:
         if self.penalised == "log_ratio":

@@ -72,6 +72,10 @@ class ExactKL:
         """Nothing: the human lies elsewhere."""
         del state
 
+    def score_kept(self, kept: None, features: Float[Array, "T N f"]) -> None:
+        """There is no classifier."""
+        del kept, features
+
 
 def log_ratio(
     adversary: GaussianParameters,

@@ -84,6 +84,10 @@ class Measure(Protocol):
         """What is stored with the adversary, as arrays; None for nothing."""
         ...
 
+    def score_kept(self, kept: Any, features: Float[Array, "T N f"]) -> Float[Array, "T N"] | None:
+        """`score`, of what was stored."""
+        ...
+
 
 def unknown() -> Float[Array, ""]:
     """A health metric that a measure does not have."""

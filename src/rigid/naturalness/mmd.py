@@ -105,6 +105,10 @@ class MMD:
         """The bandwidths."""
         return {"bandwidths": bandwidths(state)}
 
+    def score_kept(self, kept: dict[str, Array], features: Float[Array, "T N f"]) -> None:
+        """There is no classifier."""
+        del kept, features
+
 
 def bandwidths(median: Float[Array, ""]) -> Float[Array, " k"]:
     """Widths h of the kernels, widest first."""

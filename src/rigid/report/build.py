@@ -25,7 +25,7 @@ from rigid.errors import UserError
 _PACKAGE = resources.files("rigid.report")
 
 # What is only drawn keeps as many digits as a screen can show; frontier.json stays verbatim.
-DRAWN = ("band", "learning", "replays")
+DRAWN = ("band", "learning", "replays", "discriminators")
 DRAWN_DIGITS = 5
 
 # Within JSON these occur only in strings, where \u escapes stand for the same character.

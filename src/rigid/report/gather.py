@@ -6,23 +6,22 @@ it the report simply has no replays.
 
 from __future__ import annotations
 
-import io
 import json
 import re
-import zipfile
-import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from rigid.compute.checkpoint import load_arrays
 from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.files import read_bytes
 from rigid.frontier.result import Frontier, load_frontier, measured_points
 from rigid.frontier.statistics import interval_band, sound_points_by_seed
 from rigid.report.build import build_report
+from rigid.report.discriminators import discriminators
 from rigid.report.poses import encode_poses
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import task_from_description
@@ -67,6 +66,7 @@ def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
         },
         "scene": None if task is None else task.scene(),
         "replays": None if task is None else replays(frontier, task),
+        "discriminators": discriminators(frontier, task),
     }
 
 
@@ -121,7 +121,8 @@ def replays(frontier: Frontier, task: Task) -> dict[str, Any] | None:
     """
     shown: dict[str, Any] = {"canonical": {}}
     for point in frontier.points:
-        arrays = _episodes(_folder(frontier, point) / "episodes.npz")
+        path = _folder(frontier, point) / "episodes.npz"
+        arrays = load_arrays(path, cure="measure again to get its replays back")
         if arrays["snapshots"].shape[-1] == 0:
             return None
         entry = {}
@@ -166,13 +167,3 @@ def _ending(task: Task, seed: int, total: np.number, outcome: np.number) -> dict
         "return": round(float(total), 2),
         "outcome": task.outcome_names[int(outcome)],
     }
-
-
-def _episodes(path: Path) -> Mapping[str, np.ndarray]:
-    cure = "measure again to get its replays back"
-    stored = io.BytesIO(read_bytes(path, cure=cure))
-    try:
-        with np.load(stored, allow_pickle=False) as file:
-            return {name: file[name] for name in file.files}
-    except (ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
-        raise UserError(f"{path} cannot be read ({error}): {cure}") from None

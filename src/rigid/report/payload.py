@@ -96,12 +96,57 @@ class Replay(TypedDict, total=False):
     outcome: Literal["helped", "unhelped", "unwanted_contact"]
 
 
+class Accuracy(TypedDict):
+    """Shares of steps that a judge tells right; `rigid.compute.discriminator_files.Accuracy`."""
+
+    canonical: Sequence[float]
+    adversaries: Mapping[str, float | None]
+
+
+class Judged(TypedDict):
+    """One human's discriminator and referee, and D of the poses, negative for canonical."""
+
+    discriminator: Accuracy
+    referee: Accuracy | None
+    scores: Mapping[Literal["noisy", "own"], Sequence[object]]
+
+
+class Moments(TypedDict):
+    """Single moments of moving `bodies`; `poses` is `rigid.report.encode_poses` of them."""
+
+    frames: int
+    bodies: Sequence[int]
+    poses: str
+
+
+class Poses(TypedDict):
+    """Canonical poses at each of some levels of noise, level by level, and poses of each human."""
+
+    levels: Sequence[float]
+    noisy: Moments
+    own: Mapping[str, Moments]
+
+
+class Discriminators(TypedDict):
+    """What the discriminators of one search seed tell apart.
+
+    `judged` is by point, and null where the search measure has no discriminator; `poses` is null
+    where the task has no picture or its features tell no pose.
+    """
+
+    levels: Sequence[float]
+    canonical_episodes: int
+    adversary_episodes: int
+    judged: Mapping[str, Judged] | None
+    poses: Poses | None
+
+
 class Payload(TypedDict, total=False):
     """The whole report.
 
     `replays` maps a point's id to {"worst": Replay, "median": Replay}, "canonical" to
     {seed: Replay} and "passive" to a Replay; a point's motion stands beside the canonical one of
-    the same seed.
+    the same seed. `discriminators` is by search seed, without those that were never examined.
     """
 
     frontier: Mapping[str, object]
@@ -112,3 +157,4 @@ class Payload(TypedDict, total=False):
     learning: Mapping[str, Learning] | None
     scene: Scene | None
     replays: Mapping[str, object] | None
+    discriminators: Mapping[str, Discriminators] | None

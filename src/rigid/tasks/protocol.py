@@ -126,6 +126,25 @@ class BringsPolicies(Protocol):
         ...
 
 
+@runtime_checkable
+class DrawsFeatures(Protocol):
+    """A task that can draw the human as its features describe it; optional."""
+
+    def human_poses(
+        self, names: Sequence[str], features: Float[np.ndarray, "n f"]
+    ) -> Mapping[str, Any] | None:
+        """The human's moving `bodies`, indices into the scene's, and their `poses` (n, bodies, 7).
+
+        Args:
+            names: Of the features, which may be others than the task's own.
+            features: A row for each moment.
+
+        Returns:
+            None where these features do not tell the pose.
+        """
+        ...
+
+
 def adversarialness(
     returns: Float[np.ndarray, " n"], return_range: Sequence[float]
 ) -> Float[np.ndarray, " n"]:

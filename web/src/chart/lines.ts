@@ -1,9 +1,10 @@
 /** Small line panels with a shared reading line; arrow keys move it. */
-import { extent, bisectCenter } from "d3-array";
+import { extent } from "d3-array";
 import { scaleLinear } from "d3-scale";
 import { line } from "d3-shape";
-import { h, on, responsive, s } from "../base/dom.js";
+import { h, responsive, s } from "../base/dom.js";
 import { root, xAxis, yAxis, type Box } from "./axes.js";
+import { readingLine } from "./cursor.js";
 
 export interface Series {
   readonly name: string;
@@ -54,54 +55,15 @@ function draw(panel: Panel, width: number, show: (index: number | null) => void)
   const x = scaleLinear(extent(panel.x) as [number, number], [box.left, width - box.right]);
   const y = scaleLinear([low, high], [box.height - box.bottom, box.top]);
   if (!panel.domain) y.nice(3);
-  const cursor = s("line", { class: "cursor", y1: box.top, y2: box.height - box.bottom, visibility: "hidden" });
   const svg = root(box, `${panel.title}: ${panel.series.map(({ name }) => name).filter(Boolean).join(", ")}`);
-  svg.setAttribute("tabindex", "0");
   svg.append(
     yAxis(y, y.ticks(3), box, panel.format),
     xAxis(x, x.ticks(Math.max(2, Math.floor(width / 90))), box, String),
-    cursor,
     ...panel.series.map(({ kind, values }) => {
       const path = line<number>((_, i) => x(panel.x[i] ?? 0), (v) => y(v)).defined(finite);
       return s("path", { class: `series ${kind}`, d: path(values) ?? "" });
     }),
   );
-  attachCursor(svg, cursor, panel, x, show);
+  readingLine(svg, box, panel.x.map((v) => x(v)), show);
   return svg;
-}
-
-function attachCursor(
-  svg: SVGSVGElement,
-  cursor: SVGLineElement,
-  panel: Panel,
-  x: { (v: number): number; invert(px: number): number },
-  show: (index: number | null) => void,
-): void {
-  let index = panel.x.length - 1;
-  const move = (next: number): void => {
-    index = Math.min(Math.max(next, 0), panel.x.length - 1);
-    const px = x(panel.x[index] ?? 0);
-    cursor.setAttribute("x1", String(px));
-    cursor.setAttribute("x2", String(px));
-    cursor.setAttribute("visibility", "visible");
-    show(index);
-  };
-  const leave = (): void => {
-    cursor.setAttribute("visibility", "hidden");
-    show(null);
-  };
-  on(svg, {
-    pointermove: (event) => {
-      const scale = svg.viewBox.baseVal.width / svg.getBoundingClientRect().width;
-      move(bisectCenter([...panel.x], x.invert((event.clientX - svg.getBoundingClientRect().left) * scale)));
-    },
-    pointerleave: leave,
-    blur: leave,
-    keydown: (event) => {
-      const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-      if (step === undefined) return;
-      event.preventDefault();
-      move(index + step);
-    },
-  });
 }

@@ -102,7 +102,7 @@ export function sweepChart(host: HTMLElement, points: readonly SweepPoint[], cho
 }
 
 /** Two short slashes: the axis is not continuous here. */
-function axisBreak(x: number, y: number): SVGElement {
+export function axisBreak(x: number, y: number): SVGElement {
   return s("g", { class: "break", "aria-hidden": "true" },
     s("rect", { x: x - 3, y: y - 2, width: 6, height: 4 }),
     s("path", { d: `M${x - 5} ${y + 5}l4 -10M${x + 1} ${y + 5}l4 -10` }));

@@ -48,7 +48,7 @@ function page(payload: Payload): HTMLElement {
         frontierFigure(payload, id),
         replayPanel(payload, point, physical)),
       details(payload, point, physical),
-      learning(payload, point),
+      learning(payload, point, (next) => (id.value = next)),
       h("div", { class: "pair" }, failureModes(payload, id), searchFigure(payload, id)),
       pointsTable(payload, id, physical),
       provenance(payload)));

@@ -4,6 +4,7 @@
  */
 import { type Dict, dict, lambda, list, number, numbers, text } from "../base/read.js";
 import { readScene, readClip, type Clip, type Scene } from "../replay/clip.js";
+import { readDiscriminators, type Discriminators } from "./discriminators.js";
 
 export interface Outcomes {
   readonly helped: number;
@@ -67,6 +68,8 @@ export interface Payload {
   readonly learning: Dict;
   readonly scene: Scene | null;
   readonly replays: Replays;
+  /** By search seed, those that were examined. */
+  readonly discriminators: ReadonlyMap<string, Discriminators>;
 }
 
 /** Decodes an episode when it is asked for: decoding all of them would delay the page. */
@@ -168,5 +171,6 @@ export function readPayload(value: unknown): Payload {
     learning: dict(raw["learning"]),
     scene: readScene(raw["scene"]),
     replays: readReplays(raw["replays"]),
+    discriminators: readDiscriminators(raw["discriminators"]),
   };
 }

@@ -7,7 +7,7 @@ side; the recorded motion stays, and contacts are resolved in time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -95,6 +95,30 @@ def replay(
         "contacts": _contact_marks(model, snapshots),
         "success": counted[-1] >= SUCCESS_CONTACTS,
     }
+
+
+def human_poses(
+    model: mujoco.MjModel, names: Sequence[str], features: Float[np.ndarray, "n f"]
+) -> dict[str, Any] | None:
+    """Bodies of the right arm and their poses (n, bodies, 7) at given joint angles.
+
+    Args:
+        model: The scene.
+        names: Of the features; the arm's joints must be among them.
+        features: Joint angles [rad], also beyond the joints' limits, and whatever else.
+    """
+    if not set(human.ARM_JOINTS) <= set(names):
+        return None
+    columns = [list(names).index(joint) for joint in human.ARM_JOINTS]
+    places = [int(model.joint(joint).qposadr[0]) for joint in human.ARM_JOINTS]
+    root = model.body("right_shoulder").id
+    arm = [i for i in range(model.nbody) if model.body_rootid[i] == root]
+    data, poses = mujoco.MjData(model), []
+    for angles in features[:, columns]:
+        data.qpos[places] = angles
+        mujoco.mj_kinematics(model, data)
+        poses.append(np.concatenate([data.xpos, data.xquat], axis=1)[arm])
+    return {"bodies": arm, "poses": np.array(poses).reshape(-1, len(arm), 7)}
 
 
 def _motion(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from functools import cached_property
 from typing import Any
@@ -109,6 +109,14 @@ class ItchScratching:
         from rigid.tasks.itch_scratching import replay
 
         return replay.replay(self.parameters, snapshots)
+
+    def human_poses(
+        self, names: Sequence[str], features: Float[np.ndarray, "n f"]
+    ) -> Mapping[str, Any] | None:
+        """The right arm at the joint angles among the features; None where some are missing."""
+        from rigid.tasks.itch_scratching import replay
+
+        return replay.human_poses(self.model, names, features)
 
     def describe(self) -> Mapping[str, Any]:
         """Name, version and parameters, as JSON."""
