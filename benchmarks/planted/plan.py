@@ -1,0 +1,61 @@
+"""How much each search may spend, on which robots, with how many seeds."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from benchmarks.planted.handover import HORIZON
+
+METHODS = ("rigid", "clone", "diversity", "sabotage", "noise")
+"""Ours first; decoys are only searched by it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """A study; all values ours."""
+
+    name: str
+    weaknesses: tuple[int, ...] = tuple(range(10))
+    """Which of the ten."""
+    methods: tuple[str, ...] = METHODS
+    seeds: tuple[int, ...] = (0,)
+    rounds: tuple[int, ...] = (6, 2)
+    """λ of the first round and of each refinement."""
+    lambda_min: float = 0.01
+    lambda_max: float = 10.0
+    iterations: int = 100
+    """Of one adversary."""
+    episodes: int = 100
+    """Of one iteration: 4,000 steps."""
+
+    @property
+    def humans(self) -> int:
+        """Humans that every method ends with."""
+        return sum(self.rounds)
+
+    @property
+    def steps(self) -> int:
+        """Environment steps that each method may spend on one robot."""
+        return self.humans * self.iterations * self.episodes * HORIZON
+
+    def parts(self) -> list[tuple[int, str, int]]:
+        """Weakness, method (or `decoy`) and seed of every part, the search of ours first."""
+        order = (self.methods[0], "decoy", *self.methods[1:])
+        return [
+            (weakness, method, seed)
+            for method in order
+            for seed in self.seeds
+            for weakness in self.weaknesses
+        ]
+
+    def describe(self) -> dict[str, Any]:
+        """As JSON."""
+        return asdict(self)
+
+
+FULL = Plan(name="planted")
+QUICK = Plan(
+    name="quick: shows that the road works, and nothing else",
+    weaknesses=(0, 8), rounds=(2, 1), iterations=3, episodes=40,
+)  # fmt: skip

@@ -1,0 +1,140 @@
+"""The searches, each with the same environment steps: ours, and its rivals.
+
+All end in the same number of humans, which one judge scores on fresh episodes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import jax
+import numpy as np
+
+from benchmarks.planted.arena import Arena, judge, play_with
+from benchmarks.planted.people import fit_policy
+from benchmarks.planted.plan import Plan
+from rigid.frontier.search import next_round
+from rigid.learning.adversary import (
+    Adversary,
+    AdversarySettings,
+    Opponent,
+    start_adversary,
+    train_iteration,
+)
+from rigid.policies.gaussian import GaussianParameters, GaussianPolicy
+from rigid.policies.protocol import Policy
+
+NOISES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
+"""Action noise of the Gaussian rival, in multiples of the canonical one. Ours."""
+SABOTAGE = 0.0
+"""λ of an adversary that nothing holds close."""
+_SELECTION = 500  # Added to a seed: episodes that choose λ are never those that score.
+
+
+def search(method: str, arena: Arena, plan: Plan, seed: int) -> list[Policy]:
+    """The humans that a method ends with.
+
+    Args:
+        method: One of `plan.METHODS`.
+        arena: Robot, canonical data and human.
+        plan: Budget.
+        seed: Everything random comes from it.
+    """
+    searches: dict[str, Callable[[Arena, Plan, int], list[Policy]]] = {
+        "rigid": _rigid,
+        "clone": _clone,
+        "diversity": _diversity,
+        "sabotage": _sabotage,
+        "noise": _noise,
+    }
+    return searches[method](arena, plan, seed)
+
+
+def _rigid(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
+    """Algorithm 1: a discriminator holds adversaries close, λ is refined where it jumps."""
+    return _refined(arena, arena.opponent, _settings(plan, "lsgan"), plan, seed)
+
+
+def _sabotage(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
+    """λ = 0, again and again."""
+    lambdas = [SABOTAGE] * plan.humans
+    return _trained(arena, arena.opponent, _settings(plan, "lsgan"), lambdas, seed)
+
+
+def _clone(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
+    """The penalty is the divergence from a clone of canonical episodes; λ is refined alike."""
+    human = arena.opponent.human
+    episodes = play_with(
+        arena.task, arena.robot, GaussianPolicy(human), len(arena.opponent.canonical),
+        np.random.default_rng([5, seed]),
+    )  # fmt: skip
+    seen, done = (
+        rows.reshape(-1, rows.shape[-1])
+        for rows in (episodes.human_observation, episodes.human_action)
+    )
+    std = float(np.exp(np.asarray(human.log_std)).mean())
+    copied = fit_policy(seen, done, std=std, seed=seed).parameters
+    opponent = arena.opponent._replace(human=copied)
+    return _refined(arena, opponent, _settings(plan, "kl"), plan, seed)
+
+
+def _diversity(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
+    """Evolution of the last layer, with an archive."""
+    from benchmarks.planted.diversity import diversity  # Needs the extra `qd`.
+
+    return diversity(arena, seed, steps=plan.steps, humans=plan.humans)
+
+
+def _noise(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
+    """The canonical human with less and with more action noise; nothing is learned."""
+    del plan, seed
+    human = arena.opponent.human
+    return [
+        GaussianPolicy(human._replace(log_std=human.log_std + np.float32(np.log(level))))
+        for level in NOISES
+    ]
+
+
+def _settings(plan: Plan, measure: str) -> AdversarySettings:
+    """The product's settings at this study's budget."""
+    return AdversarySettings(iterations=plan.iterations, episodes=plan.episodes, measure=measure)
+
+
+def _refined(
+    arena: Arena, opponent: Opponent, settings: AdversarySettings, plan: Plan, seed: int
+) -> list[Policy]:
+    trained: list[list[float]] = []
+    naturalness: list[list[float]] = []
+    humans: list[Policy] = []
+    while True:
+        lambdas = next_round(
+            trained, naturalness, per_round=plan.rounds,
+            lambda_min=plan.lambda_min, lambda_max=plan.lambda_max,
+        )  # fmt: skip
+        if lambdas is None:
+            return humans
+        group = _trained(arena, opponent, settings, lambdas, seed + 1000 * len(trained))
+        trained.append(lambdas)
+        naturalness.append([one.naturalness for one in judge(arena, group, seed + _SELECTION)])
+        humans += group
+
+
+def _trained(
+    arena: Arena,
+    opponent: Opponent,
+    settings: AdversarySettings,
+    lambdas: Sequence[float],
+    seed: int,
+) -> list[Policy]:
+    """One adversary for each λ, with the product's own training."""
+    keys = jax.random.split(jax.random.key(seed), len(lambdas))
+    group: list[Adversary] = [
+        start_adversary(opponent, settings, lambda_, key)
+        for lambda_, key in zip(lambdas, keys, strict=True)
+    ]
+    world = arena.task.make_world(len(group) * settings.episodes)
+    for _ in range(settings.iterations):
+        results = train_iteration(arena.task, world, group, opponent, settings, seed)
+        group = [adversary for adversary, _ in results]
+    policies: list[GaussianParameters] = [adversary.learner.policy for adversary in group]
+    return [GaussianPolicy(policy) for policy in policies]
