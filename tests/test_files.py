@@ -11,6 +11,7 @@ from rigid.errors import UserError
 from rigid.files import (
     first_difference,
     json_text,
+    make_room,
     parse_header,
     read_bytes,
     write_atomically,
@@ -47,6 +48,18 @@ def test_others_may_read_what_was_written(tmp_path):
     write_atomically(tmp_path / "ours", b"")
     (tmp_path / "theirs").write_bytes(b"")
     assert (tmp_path / "ours").stat().st_mode == (tmp_path / "theirs").stat().st_mode
+
+
+@pytest.mark.parametrize("place", ["", "file/result.json"])
+def test_a_file_has_no_room_where_there_is_a_directory_or_below_a_file(tmp_path, place):
+    (tmp_path / "file").touch()
+    with pytest.raises(UserError, match=r"cannot write to .* \(.*\): choose another .* --x"):
+        make_room(tmp_path / place, "--x")
+
+
+def test_room_is_made_without_leaving_a_file(tmp_path):
+    make_room(tmp_path / "deep" / "result.json")
+    assert list(tmp_path.rglob("*")) == [tmp_path / "deep"]
 
 
 @pytest.mark.parametrize(

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
-from collections.abc import Mapping
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -33,6 +36,44 @@ def write_atomically(path: Path, data: bytes) -> None:
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def check_writable(folder: Path) -> None:
+    """Tries whether files can be made in `folder`; leaves nothing there.
+
+    Permissions do not tell: root has them all, even where a file system takes no files.
+
+    Raises:
+        OSError: They cannot.
+    """
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, "no permission")
+    with tempfile.TemporaryFile(dir=folder):
+        pass
+
+
+def make_room(path: Path, option: str = "--out") -> None:
+    """Makes the folder of a file that is written later; refuses a bad place before any work.
+
+    Raises:
+        UserError: `path` cannot be written.
+    """
+    with writing_to(path, option):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if path.is_dir():
+            raise IsADirectoryError(0, "Is a directory")
+        check_writable(path.parent)
+
+
+@contextmanager
+def writing_to(path: Path, option: str = "--out") -> Iterator[None]:
+    """Turns a failure to write into a message; for the places that users name with an option."""
+    try:
+        yield
+    except OSError as error:
+        raise UserError(
+            f"cannot write to {path} ({error.strerror}): choose another place with {option}"
+        ) from None
 
 
 def read_bytes(path: Path, *, cure: str) -> bytes:

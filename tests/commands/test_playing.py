@@ -37,6 +37,23 @@ def test_record_refuses_a_directory_as_its_file(rigid, toy_options, tmp_path):
     assert f"cannot write to {tmp_path} (Is a directory)" in err
 
 
+WORK = {
+    "record": ("rigid.data.recording.record", ["--out"]),
+    "verify": ("rigid.compute.verifying.plan_verification", ["--json"]),
+    "bench": ("rigid.commands.benchmarking._measured", ["--json"]),
+}
+
+
+@pytest.mark.parametrize("command", WORK)
+def test_a_file_that_cannot_be_written_is_refused_before_any_work(rigid, monkeypatch, command):
+    work, options = WORK[command]
+    monkeypatch.setattr(work, lambda *_, **__: pytest.fail("it has begun"))
+    code, out, err = rigid(command, *options, "/proc/result")  # Where root cannot write either.
+    assert (code, out) == (2, "")
+    assert "rigid: cannot write to /proc/result (" in err
+    assert err.endswith(f"choose another place with {options[0]}\n")
+
+
 def test_evaluate_prints_what_python_gives(rigid, toys, toy_options):
     code, out, err = rigid("evaluate", *toy_options, "--episodes", 5, "--seed", 2, "--json")
     assert (code, err) == (0, "")

@@ -76,7 +76,7 @@ def test_what_is_known_is_kept_and_not_trained_again(run, monkeypatch):
 
 
 def test_a_point_that_is_none_is_named(run):
-    with pytest.raises(UserError, match="has no point 's9-r1-l1'"):
+    with pytest.raises(UserError, match=r"has no point 's9-r1-l1': frontier\.json lists their ids"):
         blame(run, points=["s9-r1-l1"], settings=QUICK)
 
 

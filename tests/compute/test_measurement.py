@@ -164,8 +164,10 @@ def test_a_group_that_was_deleted_is_trained_again(single_run, single_copy, meas
 def test_a_damaged_frontier_is_named_and_deleting_it_helps(single_run, single_copy, measure):
     path = single_copy / "frontier.json"
     path.write_bytes(path.read_bytes()[:100])
+    notes = Notes()
     with pytest.raises(UserError, match=r"frontier\.json is damaged: delete it and run"):
-        measure(single_copy, seeds=[0])
+        measure(single_copy, seeds=[0], listener=notes)
+    assert notes.lines == []  # It is not called complete.
     path.unlink()
     assert without_times(measure(single_copy, seeds=[0])) == without_times(single_run)
 

@@ -120,6 +120,12 @@ def test_a_place_below_a_file_cannot_be_written(tmp_path, below):
         check_place(tmp_path / "file" / below)
 
 
+def test_a_file_system_that_takes_no_files_cannot_be_written():
+    """Root has every permission there."""
+    with pytest.raises(UserError, match=r"cannot write to /proc/runs \(.*\): choose another place"):
+        check_place(Path("/proc/runs"))
+
+
 def test_a_place_without_permission_cannot_be_written(tmp_path, monkeypatch):
     monkeypatch.setattr(run_directory.os, "access", lambda *_: False)  # Root may write anywhere.
     with pytest.raises(UserError, match=r"cannot write to .*new \(no permission\)"):
@@ -134,7 +140,7 @@ def test_a_finished_run_may_be_read_only(tmp_path, monkeypatch):
 
 def test_checking_a_place_makes_nothing(tmp_path):
     check_place(tmp_path / "new")
-    assert not (tmp_path / "new").exists()
+    assert not list(tmp_path.iterdir())
 
 
 def stored_but(tmp_path, **changes) -> str:
@@ -151,6 +157,12 @@ def test_damaged_settings_are_refused(tmp_path, text):
     path = tmp_path / "settings.json"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(UserError, match=r"settings\.json is damaged: choose another directory"):
+        begin(tmp_path)
+
+
+def test_settings_of_another_program_are_not_called_damaged(tmp_path):
+    (tmp_path / "settings.json").write_text('{"editor.fontSize": 12}')
+    with pytest.raises(UserError, match=r"settings\.json is of something else: choose another dir"):
         begin(tmp_path)
 
 

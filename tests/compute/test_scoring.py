@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
 from rigid.compute.endings import Ended, measure
-from rigid.compute.scoring import _shown
+from rigid.compute.preparation import settings_for
+from rigid.compute.scoring import Court, Judged, Ruler, _shown, score, seen_by_referee
+from rigid.learning.adversary import Opponent, start_adversary
+from rigid.learning.rollout import play, policy_actor
+from rigid.naturalness.referee import RefereeSettings
 from tests.compute.tiny import TINY, FilmedReach
-from tests.toys import ToyReach
+from tests.toys import Follower, Pointer, ToyReach, untrained
 
 TASK = ToyReach(return_range=(-10.0, 0.0))
 
@@ -50,6 +58,40 @@ def test_episodes_that_ran_away_are_not_shown():
 
 def test_something_is_shown_when_every_episode_ran_away():
     assert _shown(ending([-2, -9], faulted=[1, 1]), slice(None)).tolist() == [1, 0]
+
+
+def test_the_referee_is_told_which_steps_of_whose_episodes_are_sound():
+    task, mine = ToyReach(fault_every=3), slice(2, 5)
+    actors = policy_actor(Follower(), 6, None), policy_actor(Pointer(), 6, None)
+    played = play(task, task.make_world(6), np.arange(6), *actors)
+    seen = seen_by_referee(played, mine)
+    np.testing.assert_array_equal(seen.sound, played.weight.T[mine] == 1)
+    np.testing.assert_array_equal(seen.features, played.features.swapaxes(0, 1)[mine])
+    assert seen.sound.all(axis=1).tolist() == [True, False, True]
+
+
+def test_its_own_discriminator_calls_a_step_natural_where_it_is_sound_and_scores_below_0():
+    """The score is the goal, +1 or -1; every third seed runs away after 4 of 10 steps."""
+    task, preset = FilmedReach(fault_every=3), replace(TINY, scoring_episodes=20)
+    canonical = np.random.default_rng(0).permuted(np.tile((-1.0, 1.0), (40, 1)), axis=1)
+    canonical = np.repeat(canonical.astype(np.float32)[:, None], task.horizon, axis=1)
+    human, settings = untrained(task.human).parameters, settings_for(preset)
+    opponent = Opponent(Follower(), human, canonical, np.arange(40), 1.0)
+    adversary = start_adversary(opponent, settings, 0.0, jax.random.key(0))
+    goal = [{"w": jnp.array([[0.0], [1.0]]), "b": jnp.zeros(1)}]
+    discriminator = adversary.measure.discriminator._replace(network=goal)
+    adversary = adversary._replace(measure=adversary.measure._replace(discriminator=discriminator))
+    court = Court(task, opponent, Ruler((), (-20.0, 0.0), RefereeSettings()), preset, settings)
+
+    ((point, arrays),) = score(court, [adversary], [Judged({}, 0.5)], entropy=2)
+
+    seeds = arrays["seeds"]
+    low = np.array([np.random.default_rng(seed).choice([-1.0, 1.0]) for seed in seeds]) < 0
+    steps = np.where(seeds % 3 == 0, 4, 10)
+    share = steps[low].sum() / steps.sum()
+    assert point["naturalness_own"] == pytest.approx(share)
+    for wrong in (1 - share, low.mean()):  # Scores above 0, and steps after a fault as well.
+        assert abs(wrong - share) > 0.02
 
 
 @pytest.fixture(scope="module")

@@ -172,6 +172,14 @@ def test_a_number_that_is_not_finite_is_found(path, name, value, where):
     refused(path, where + ": leave such episodes out")
 
 
+@pytest.mark.parametrize("name", ["returns", "success"])
+def test_what_is_unknown_of_an_episode_is_nan_and_never_infinite(path, name):
+    values = getattr(some_episodes(), name)
+    values[:2] = np.nan, np.inf
+    edit(path, **{name: values})
+    refused(path, f"{name} are infinite, first in episode 1: give NaN where unknown")
+
+
 def test_a_number_too_large_for_float32_is_not_finite(path):
     features = some_episodes().features.astype(np.float64)
     features[0, 0, 0] = 1e300

@@ -152,7 +152,7 @@ def test_no_two_phases_or_iterations_share_numbers():
 
 
 @pytest.mark.parametrize(
-    ("lambda_", "natural"), [(0.0, False), (0.29, False), (0.3, True), (INF, True)]
+    ("lambda_", "natural"), [(0.0, False), (0.09, False), (0.1, True), (INF, True)]
 )
 def test_only_large_lambdas_start_at_the_human(opponent, lambda_, natural):
     policy = start(opponent, lambda_)[0].learner.policy

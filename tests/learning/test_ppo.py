@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from rigid.learning.adversary import AdversarySettings
+from rigid.learning.best_response import ResponseSettings
+from rigid.learning.cooptimisation import CoOptimisationSettings
+from rigid.learning.personalisation import PersonalisationSettings
 from rigid.learning.ppo import (
     PPOSettings,
     Rollout,
+    _loss,
     _standardise,
+    _trainable,
     critic_values,
     init_learner,
     ppo_update,
@@ -118,6 +126,15 @@ def test_a_delayed_reward_is_discounted_by_gamma():
     assert mean(learner, 0.0) == pytest.approx(0.2, abs=0.1)
 
 
+@pytest.mark.parametrize(
+    "recipe",
+    [AdversarySettings, CoOptimisationSettings, PersonalisationSettings, ResponseSettings],
+)
+def test_every_recipe_looks_over_a_whole_episode(recipe):
+    """A reward 100 steps ahead still counts for a third; γ = .9 would see ten steps."""
+    assert recipe().ppo.gamma ** 100 == pytest.approx(0.366, abs=0.001)
+
+
 @pytest.mark.parametrize("settings", [SETTINGS, CLONING], ids=["reward", "cloning"])
 def test_steps_after_a_fault_do_not_move_anything(settings):
     learner, rng = fresh(settings), np.random.default_rng(0)
@@ -126,7 +143,7 @@ def test_steps_after_a_fault_do_not_move_anything(settings):
     lost = weight[..., None] == 0
     ruined = played._replace(
         reward=jnp.where(weight > 0, played.reward, 1e9),
-        action=jnp.where(lost, 7.0, played.action),
+        action=jnp.where(lost, 1e3, played.action),
         expert_action=jnp.where(lost, 1e3, played.expert_action),
     )
     one, other = (
@@ -134,6 +151,41 @@ def test_steps_after_a_fault_do_not_move_anything(settings):
     )
     assert bitwise_equal(one, other)
     assert not bitwise_equal(one, learner)
+
+
+def test_lost_episodes_are_as_if_they_had_not_been_played():
+    """In batches of everything, with advantages whose size sets the pace."""
+    settings = replace(SETTINGS, minibatch=STEPS * EPISODES, signal_floor=100.0)
+    learner, rng = fresh(settings), np.random.default_rng(0)
+    half = EPISODES // 2
+    weight = jnp.ones((STEPS, EPISODES)).at[:, half:].set(0.0)
+    played = rollout(learner, rng, a_sign(rng), lambda _, action: 3 + action, weight=weight)
+    sound = Rollout(*(rows[:, :half] for rows in played))
+    one, other = (
+        _update(learner, rows, jax.random.key(0), settings=settings)[0] for rows in (played, sound)
+    )
+    for part in ("policy", "critic"):
+        before, *after = (jax.tree.leaves(getattr(x, part)) for x in (learner, one, other))
+        for start, left, right in zip(before, *after, strict=True):
+            np.testing.assert_allclose(left - start, right - start, rtol=0.01, atol=1e-6)
+
+
+def test_lost_samples_count_in_no_mean_of_the_loss():
+    """Half of a batch is lost: every term is that of the other half."""
+    learner, rng = fresh(CLONING), np.random.default_rng(0)
+    batch = {
+        name: jnp.asarray(rng.standard_normal(shape), jnp.float32)
+        for name, shape in (
+            ("observation", (8, 1)), ("critic", (8, 2)), ("action", (8, 1)), ("expert", (8, 1)),
+            ("log_density", (8,)), ("advantage", (8,)), ("target", (8,)),
+        )
+    }  # fmt: skip
+    batch["weight"] = jnp.tile(jnp.array([1.0, 0.0]), 4)
+    sound = {name: values[::2] for name, values in batch.items()}
+    trainable = _trainable(learner.policy, learner.critic)
+    found, expected = (_loss(trainable, rows, PPOSettings())[1] for rows in (batch, sound))
+    for name in ("policy", "value", "cloning"):
+        assert getattr(found, name) == pytest.approx(float(getattr(expected, name)), rel=1e-5), name
 
 
 def test_what_was_seen_in_lost_episodes_does_not_move_anything():

@@ -84,7 +84,9 @@ def test_report_replaces_the_old_one_and_leaves_nothing_beside_it(tmp_path):
 
 def test_unwritable_place_is_a_users_error(tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(UserError, match=r"cannot write the report .*file/report\.html"):
+    with pytest.raises(
+        UserError, match=r"cannot write the report .*file/report\.html \(.*\): choose ano"
+    ):
         build_report({}, tmp_path / "file" / "report.html")
 
 

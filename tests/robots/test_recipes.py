@@ -139,6 +139,22 @@ def test_finished_directories_are_refused(pair, robot, vanilla):
         vanilla(robot)
 
 
+@pytest.mark.parametrize("name", ["robot", "canonical.npz"])
+def test_a_directory_of_something_else_is_refused_and_left_alone(vanilla, tmp_path, name):
+    """A pair would write robot/, a robot canonical.npz."""
+    (tmp_path / name).write_text("mine")
+    for train in (co_optimise, vanilla):
+        with pytest.raises(UserError, match=r"is not empty and holds no training .*with --out"):
+            train(tmp_path)
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
+
+
+def test_what_a_training_left_that_was_killed_at_its_first_write_does_not_count(tmp_path):
+    (tmp_path / ".checkpoint.safetensors.4711.tmp").touch()
+    co_optimise(tmp_path, settings=replace(PAIR, iterations=1))
+    assert (tmp_path / "human").exists()
+
+
 @pytest.mark.parametrize(
     "changes",
     [

@@ -40,18 +40,16 @@ class BenchCommand:
     def run(self) -> int:
         """Measures, prints and stores."""
         at_least("--repeats", self.repeats, 1)
-        from rigid.compute.run_directory import writing_to
-        from rigid.files import json_text, write_atomically
+        from rigid.files import json_text, make_room, write_atomically, writing_to
 
         before = _last(self.json)
         if self.json is not None:
-            with writing_to(self.json):
-                self.json.parent.mkdir(parents=True, exist_ok=True)
+            make_room(self.json, "--json")
         found = _measured(self)
-        if self.json is not None:
-            with writing_to(self.json):
-                write_atomically(self.json, (json_text(found, indent=1) + "\n").encode())
         print(_table(found, before))
+        if self.json is not None:
+            with writing_to(self.json, "--json"):
+                write_atomically(self.json, (json_text(found, indent=1) + "\n").encode())
         return 0
 
 

@@ -38,16 +38,15 @@ class RecordCommand(_PairOptions):
 
     def run(self) -> int:
         """Plays and stores the episodes."""
-        from rigid.compute.run_directory import writing_to
         from rigid.data.episodes import save_episodes
         from rigid.data.recording import record
+        from rigid.files import make_room, writing_to
         from rigid.policies.loading import load_policy
         from rigid.tasks.registry import make_task
 
         at_least("--episodes", self.episodes, 1)
         at_least("--seed", self.seed, 0)
-        with writing_to(self.out):
-            self.out.parent.mkdir(parents=True, exist_ok=True)
+        make_room(self.out)
         task = make_task(self.task)
         robot = load_policy(self.robot, task=task, agent="robot")
         human = load_policy(self.human, task=task, agent="human")

@@ -34,10 +34,11 @@ class VerifyCommand:
         """Trains, compares and prints."""
         chosen = parse_lambdas(self.lambdas)
         from rigid.commands.progress import TerminalListener
-        from rigid.compute.run_directory import writing_to
         from rigid.compute.verifying import plan_verification
-        from rigid.files import json_text, write_atomically
+        from rigid.files import json_text, make_room, write_atomically, writing_to
 
+        if self.json is not None:
+            make_room(self.json, "--json")
         plan = plan_verification(chosen)
         begun = time.monotonic()
         with TerminalListener("verifying") as listener:
@@ -45,11 +46,10 @@ class VerifyCommand:
             listener.begin(plan.env_steps, plan.seconds())
             result = plan.run(listener.advance, listener.say)
         result["wall_seconds"] = time.monotonic() - begun
-        if self.json is not None:
-            with writing_to(self.json):
-                self.json.parent.mkdir(parents=True, exist_ok=True)
-                write_atomically(self.json, json_text(result, indent=1).encode())
         print(table(result))
+        if self.json is not None:
+            with writing_to(self.json, "--json"):
+                write_atomically(self.json, json_text(result, indent=1).encode())
         return 0 if result["ok"] else CHECK_FAILED
 
 

@@ -69,7 +69,7 @@ def blame(
     known = _stored(directory / FILE)
     for name in points or harmful_points(frontier):
         if name not in {point["id"] for point in frontier.points}:
-            raise UserError(f"{directory} has no point {name!r}")
+            raise UserError(f"{directory} has no point {name!r}: frontier.json lists their ids")
         if name in known:
             say(f"{name}: {known[name]['verdict']} (known)")
             continue

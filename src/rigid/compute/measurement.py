@@ -115,8 +115,9 @@ def measure_robot(
         for warning in opened.warnings:
             listener.say(warning)
         if opened.directory.frontier.exists():
+            complete = load_frontier(out)
             listener.say(f"{out} is already complete; nothing to do")
-            return load_frontier(out)
+            return complete
         clock.go_on(opened.directory.path / "groups" / "spent.json")
         data = _measured(subject, prepared, preset, settings, opened, lambdas, clock, listener)
         write_atomically(opened.directory.frontier, json_text(data, indent=1).encode())

@@ -18,7 +18,14 @@ from typing import Any, NamedTuple
 
 from rigid._version import __version__
 from rigid.errors import UserError
-from rigid.files import first_difference, json_text, read_bytes, write_atomically
+from rigid.files import (
+    check_writable,
+    first_difference,
+    json_text,
+    read_bytes,
+    write_atomically,
+    writing_to,
+)
 
 SCHEMA = 1
 _LIBRARIES = ("mujoco", "jax", "jaxlib", "numpy", "optax", "scipy")
@@ -70,8 +77,8 @@ def check_place(path: Path) -> None:
         held = next(place for place in (path, *path.absolute().parents) if place.exists())
         if not held.is_dir():
             raise NotADirectoryError(0, f"{held} is a file")
-        if not run.frontier.exists() and not os.access(held, os.W_OK | os.X_OK):
-            raise PermissionError(0, "no permission")
+        if not run.frontier.exists():
+            check_writable(held)
     if run.settings.exists():
         read_settings(run)
     elif not all(_LEFTOVER.fullmatch(name) for name in names):
@@ -79,17 +86,6 @@ def check_place(path: Path) -> None:
             f"{path} is not empty and holds no measurement (no settings.json): choose a new "
             "directory with --out"
         )
-
-
-@contextmanager
-def writing_to(path: Path) -> Iterator[None]:
-    """Turns a failure to write into a message; for the places that users name with --out."""
-    try:
-        yield
-    except OSError as error:
-        raise UserError(
-            f"cannot write to {path} ({error.strerror}): choose another place with --out"
-        ) from None
 
 
 @contextmanager
@@ -161,7 +157,10 @@ def read_settings(run: RunDirectory) -> dict[str, Any]:
     """The settings of a measurement; raises `UserError` when they are missing or damaged."""
     cure = "choose another directory, or delete this one"
     try:
-        stored: dict[str, Any] = json.loads(read_bytes(run.settings, cure=cure))
+        found: Any = json.loads(read_bytes(run.settings, cure=cure))
+        if isinstance(found, dict) and "schema" not in found:
+            raise UserError(f"{run.settings} is of something else: choose another directory")
+        stored: dict[str, Any] = found
         schema = stored["schema"]
         if schema == SCHEMA:
             _check_complete(stored)

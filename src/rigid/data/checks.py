@@ -82,6 +82,12 @@ def check_values(
     for name in ("features", "observations", "actions"):
         if name in arrays:
             _check_finite(arrays[name], name, names.get(name, ()), where)
+    for name in ("returns", "success"):  # NaN there says that nobody knows.
+        if name in arrays and np.isinf(arrays[name]).any():
+            episode = int(np.flatnonzero(np.isinf(arrays[name]))[0])
+            raise UserError(
+                f"{where}: {name} are infinite, first in episode {episode}: give NaN where unknown"
+            )
 
 
 def _check_lengths(arrays: Mapping[str, np.ndarray], where: Path) -> None:

@@ -294,9 +294,10 @@ def _loss(
 ) -> tuple[Float[Array, ""], Losses]:
     mean = apply_mlp(trainable["network"], batch["observation"])
     density = log_density(mean, trainable["log_std"], batch["action"])
-    ratio = jnp.exp(density - batch["log_density"])
-    clipped = jnp.clip(ratio, 1 - settings.clip, 1 + settings.clip)
     gain, weight = batch["advantage"], batch["weight"]
+    # What follows a fault weighs nothing, and must not spoil a sum by being infinite.
+    ratio = jnp.exp(jnp.where(weight > 0, density - batch["log_density"], 0.0))
+    clipped = jnp.clip(ratio, 1 - settings.clip, 1 + settings.clip)
     total = jnp.maximum(weight.sum(), 1.0)
     policy = -(jnp.minimum(ratio * gain, clipped * gain) * weight).sum() / total
     error = apply_mlp(trainable["critic"], batch["critic"])[:, 0] - batch["target"]

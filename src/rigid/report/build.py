@@ -132,13 +132,17 @@ def _bundled(name: str) -> str:
     return source.read_text(encoding="utf-8")
 
 
+def _unwritable(path: Path, error: OSError) -> str:
+    return f"cannot write the report {path} ({error.strerror}): choose another place with --out"
+
+
 def _write_atomically(path: Path, data: bytes) -> None:
     """Replaces `path` at once, so that nobody ever opens half a report."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     except OSError as error:
-        raise UserError(f"cannot write the report {path}: {error.strerror}") from error
+        raise UserError(_unwritable(path, error)) from None
     temporary = Path(name)
     try:
         with os.fdopen(descriptor, "wb") as file:
@@ -147,4 +151,4 @@ def _write_atomically(path: Path, data: bytes) -> None:
         temporary.replace(path)
     except OSError as error:
         temporary.unlink(missing_ok=True)
-        raise UserError(f"cannot write the report {path}: {error.strerror}") from error
+        raise UserError(_unwritable(path, error)) from None

@@ -8,6 +8,7 @@ hidden) and, while it trains, `checkpoint.safetensors`. A robot's directory is a
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -18,11 +19,10 @@ import jax.numpy as jnp
 from rigid._version import __version__
 from rigid.compute.checkpoint import load_tree, save_tree
 from rigid.compute.preparation import CANONICAL_FILE
-from rigid.compute.run_directory import writing_to
 from rigid.data.episodes import save_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
-from rigid.files import json_text
+from rigid.files import json_text, writing_to
 from rigid.learning.cooptimisation import (
     CoOptimisationSettings,
     Pair,
@@ -38,6 +38,8 @@ from rigid.policies.native import CARD_FILE, Agent, save_policy
 from rigid.tasks.protocol import Task
 
 _CHECKPOINT_EVERY = 10  # Iterations.
+_CHECKPOINT = re.compile(r"checkpoint\.safetensors|\.checkpoint\.safetensors\.\d+\.tmp")
+"""A checkpoint, or what a training leaves that was killed at its very first write."""
 _Learner = TypeVar("_Learner")
 Report = Callable[[Progress], None]
 
@@ -48,7 +50,7 @@ def train_pair(
     """Co-optimises a pair into `out`; an interrupted training in it goes on.
 
     Raises:
-        UserError: `out` holds a finished pair, or a checkpoint of another training.
+        UserError: `out` holds a finished pair, something else, or another training.
     """
     if (out / "human" / CARD_FILE).exists():
         raise UserError(f"{out} already holds a finished pair: choose another directory with --out")
@@ -85,7 +87,8 @@ def train_vanilla(
     """The paper's Vanilla RL: a robot personalized to the human of `pair`, with canonical data.
 
     Raises:
-        UserError: `pair` is no pair, or `out` holds a finished robot or another training.
+        UserError: `pair` is no pair, or `out` holds a finished robot, something else or another
+            training.
     """
     if (out / CARD_FILE).exists():
         raise UserError(f"{out} already holds a robot: choose another directory with --out")
@@ -143,6 +146,12 @@ class _Checkpoint:
         self.path = out / "checkpoint.safetensors"
         with writing_to(out):
             out.mkdir(parents=True, exist_ok=True)
+            names = [entry.name for entry in out.iterdir()]
+        if names and not any(_CHECKPOINT.fullmatch(name) for name in names):
+            raise UserError(
+                f"{out} is not empty and holds no training (no {self.path.name}): choose a new "
+                "directory with --out"
+            )
         # Settings as numbers, so that they fit into the same file.
         text = json_text({"task": dict(task.describe()), **made_by})
         self._fingerprint = jnp.frombuffer(hashlib.sha256(text.encode()).digest(), dtype=jnp.uint8)

@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from rigid.tasks.itch_scratching.reward import SUCCESS_CONTACTS
 from tests.tasks.scripted import random_actions
 
 RUNAWAYS = {"nan": np.nan, "infinite": np.inf, "fast": 60.0, "huge": 1e12}
@@ -69,6 +70,13 @@ def test_a_fault_lasts_to_the_end_of_the_episode_and_earns_nothing(task, value):
         assert np.isfinite(step.human_observation).all()
         assert np.isfinite(step.robot_observation).all()
     assert world.summary().success[1] == 0
+
+
+def test_an_episode_that_ran_away_is_not_helped_however_often_it_was_scratched(task):
+    world, _ = play(task, spoiled(np.nan))
+    world.counted[:] = SUCCESS_CONTACTS
+    np.testing.assert_array_equal(world.summary().success, [1, 0, 1, 1])
+    np.testing.assert_array_equal(world.summary().outcome == 0, [True, False, True, True])
 
 
 def test_a_runaway_world_goes_back_to_its_start(task):

@@ -32,6 +32,20 @@ def test_the_robot_cannot_tell_where_it_itches(twins):
     assert np.max(forces) > 0  # It has felt the limb.
 
 
+def test_the_robot_cannot_tell_after_scratching_either_limb_to_the_end_of_the_episode(task):
+    tasks = [task.with_parameters(itch_limbs=(limb,)) for limb in LIMBS]
+    worlds = [twin.make_world(2, threads=1) for twin in tasks]
+    one, other = (world.reset(np.arange(2)) for world in worlds)
+    robot = Scratcher(task, worlds[0])
+    for number in range(task.horizon):
+        limb = number * len(LIMBS) // task.horizon
+        action = robot.act(np.full(2, limb))
+        one, other = (world.step(action, np.zeros((2, 10))) for world in worlds)
+        np.testing.assert_array_equal(one.robot_observation, other.robot_observation)
+    for world in worlds:  # Each has been helped a little, so that a counted contact cannot tell.
+        assert world.counted.min() > 0
+
+
 def test_the_person_feels_where_it_itches(twins):
     for one, other in twins[1:]:
         assert (one.human_observation != other.human_observation).any(axis=1).all()

@@ -60,6 +60,14 @@ def test_the_person_starts_seated_and_at_rest(task):
     np.testing.assert_array_equal(step.reward, 0)
 
 
+def test_the_robot_starts_in_a_clear_pose_joint_by_joint(task):
+    world = task.make_world(8, threads=1)
+    world.reset(np.arange(8))
+    places = [task.model.joint(name).qposadr[0] for name in jaco.JOINT_NAMES]
+    for angles in world._batch.bind("qpos")[:, places]:
+        assert (angles == task.starts).all(axis=1).any()
+
+
 def test_the_start_poses_are_many_and_small_on_disk():
     assert starts.stored_starts().shape == (starts.COUNT, len(jaco.JOINT_NAMES))
     assert len(np.unique(starts.stored_starts(), axis=0)) == starts.COUNT
