@@ -152,6 +152,19 @@ def test_an_interrupted_command_may_say_where_to_go_on(exit_of):
     assert message.endswith("interrupted; the same command goes on in runs/demo\n")
 
 
+def test_an_interrupted_process_ends_before_libraries_can_crash_at_its_exit():
+    """JAX, while it still compiles on threads of its own, with a segmentation fault."""
+    script = (
+        "import atexit, os; from rigid import cli; atexit.register(os._exit, 11)\n"
+        "cli.run = lambda: print('shown', end='') or cli.INTERRUPTED\n"
+        "cli.main()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "shown", "")
+
+
 def test_a_bug_keeps_its_traceback(exit_of):
     with pytest.raises(ZeroDivisionError):
         exit_of(ZeroDivisionError())

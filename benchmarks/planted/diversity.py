@@ -7,12 +7,11 @@ exact divergence of its actions: more than a search of real people could know.
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
-from ribs.archives import GridArchive
-from ribs.emitters import EvolutionStrategyEmitter
-from ribs.schedulers import Scheduler
 
 from benchmarks.planted.arena import Arena
 from rigid.learning.adversary import group_actor, phase_rng
@@ -45,7 +44,28 @@ def diversity(arena: Arena, seed: int, *, steps: int, humans: int) -> list[Polic
         steps: Environment steps to spend.
         humans: How many to return; fewer where the archive has none in a range.
     """
+    scheduler, kept = _scheduler(arena.opponent.human, seed)
     canonical = arena.opponent.human
+    for generation in range(steps // (EMITTERS * BATCH * EPISODES * arena.task.horizon)):
+        solutions = scheduler.ask()
+        scheduler.tell(*_tried(arena, [_perturbed(canonical, one) for one in solutions],
+                               seed, generation))  # fmt: skip
+    found = kept.data(("solution", "objective", "measures"))
+    places = np.linspace(*DEPARTURE, humans + 1)[1:-1]
+    ranges = np.digitize(found["measures"][:, 0], places)
+    best = [
+        max(np.flatnonzero(ranges == number), key=lambda cell: found["objective"][cell])
+        for number in np.unique(ranges)
+    ]
+    return [GaussianPolicy(_perturbed(canonical, found["solution"][cell])) for cell in best]
+
+
+def _scheduler(canonical: GaussianParameters, seed: int) -> tuple[Any, Any]:
+    """Evolution strategies with their archive, and an archive of the best that was ever seen."""
+    from ribs.archives import GridArchive  # An extra, so only where it is used.
+    from ribs.emitters import EvolutionStrategyEmitter
+    from ribs.schedulers import Scheduler
+
     size = canonical.network[-1]["w"].size + canonical.network[-1]["b"].size
     archive, kept = (
         GridArchive(
@@ -61,19 +81,7 @@ def diversity(arena: Arena, seed: int, *, steps: int, humans: int) -> list[Polic
         )
         for number in range(EMITTERS)
     ]  # fmt: skip
-    scheduler = Scheduler(archive, emitters, result_archive=kept)
-    for generation in range(steps // (EMITTERS * BATCH * EPISODES * arena.task.horizon)):
-        solutions = scheduler.ask()
-        scheduler.tell(*_tried(arena, [_perturbed(canonical, one) for one in solutions],
-                               seed, generation))  # fmt: skip
-    found = kept.data(("solution", "objective", "measures"))
-    places = np.linspace(*DEPARTURE, humans + 1)[1:-1]
-    ranges = np.digitize(found["measures"][:, 0], places)
-    best = [
-        max(np.flatnonzero(ranges == number), key=lambda cell: found["objective"][cell])
-        for number in np.unique(ranges)
-    ]
-    return [GaussianPolicy(_perturbed(canonical, found["solution"][cell])) for cell in best]
+    return Scheduler(archive, emitters, result_archive=kept), kept
 
 
 def _perturbed(policy: GaussianParameters, change: Float[np.ndarray, " d"]) -> GaussianParameters:

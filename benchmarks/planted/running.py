@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +22,10 @@ def run(plan: Plan, out: Path, results: Path) -> None:
     """Runs the study, or what is left of it.
 
     Raises:
-        UserError: `out` holds parts of another plan.
+        UserError: `out` holds parts of another plan, or the extra `qd` is not installed.
     """
+    if "diversity" in plan.methods and find_spec("ribs") is None:
+        raise UserError("quality-diversity search needs ribs: pip install 'rigid-frontier[qd]'")
     parts = plan.parts()
     say(f"{len(parts)} searches of {plan.steps:,} environment steps each")
     if once(out / "plan.json", plan.describe) != _as_json(plan):

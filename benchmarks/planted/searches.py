@@ -11,6 +11,7 @@ import jax
 import numpy as np
 
 from benchmarks.planted.arena import Arena, judge, play_with
+from benchmarks.planted.diversity import diversity
 from benchmarks.planted.people import fit_policy
 from benchmarks.planted.plan import Plan
 from rigid.frontier.search import next_round
@@ -80,8 +81,6 @@ def _clone(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
 
 def _diversity(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
     """Evolution of the last layer, with an archive."""
-    from benchmarks.planted.diversity import diversity  # Needs the extra `qd`.
-
     return diversity(arena, seed, steps=plan.steps, humans=plan.humans)
 
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 import functools
 import inspect
 import operator
+import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Annotated, Any, Protocol, runtime_checkable
 
 import tyro
@@ -51,7 +53,15 @@ _COMMANDS: dict[str, type[_Runs]] = {
 
 def main() -> None:
     """Runs one command and exits: 0 done, 1 a check failed, 2 bad input, 130 interrupted."""
-    sys.exit(run())
+    code = run()
+    if code == INTERRUPTED:
+        # JAX may still compile or compute on threads of its own, and crashes when Python takes down
+        # what they use. Nothing is left to do: files are written whole, and locks were let go.
+        with suppress(OSError):
+            sys.stdout.flush()
+            sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
