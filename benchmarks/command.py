@@ -1,14 +1,61 @@
-"""How a study is started: its exit codes are those of `rigid`."""
+"""How a study is started: its options, its places, and the exit codes of `rigid`."""
 
 from __future__ import annotations
 
+import inspect
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import tyro
 
 from rigid.commands.parsing import printable
 from rigid.errors import UserError
 
 INTERRUPTED = 130
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """What every study can be told; a study adds its own options and says what it does."""
+
+    out: Path | None = None
+    """Raw runs; runs/STUDY by default, runs/STUDY-quick with --quick."""
+    results: Path | None = None
+    """Tables, figure and account; results/STUDY by default, OUT/results with --quick."""
+    quick: bool = False
+    """The whole road in some minutes, with budgets that say nothing."""
+
+    def run(self) -> None:
+        """Runs the study, or what is left of it."""
+        raise NotImplementedError
+
+    def places(self, name: str, *, runs: str | None = None) -> tuple[Path, Path]:
+        """Where raw runs and results go.
+
+        Args:
+            name: Of the study.
+            runs: Folder of the raw runs of a full study, below `runs/`; `name` by default.
+
+        Example:
+            >>> [str(place) for place in Study().places("planted")]
+            ['runs/planted', 'results/planted']
+            >>> [str(place) for place in Study(quick=True).places("planted")]
+            ['runs/planted-quick', 'runs/planted-quick/results']
+        """
+        out = self.out or Path("runs") / (f"{name}-quick" if self.quick else runs or name)
+        usual = out / "results" if self.quick else Path("results") / name
+        return out, self.results or usual
+
+
+def start(kind: type[Study], name: str, arguments: Sequence[str] | None = None) -> int:
+    """Runs a study with the options of a command line and returns its exit code."""
+    options = tyro.cli(
+        kind, args=arguments, prog=f"python -m benchmarks.{name}",
+        description=inspect.getdoc(kind), config=(tyro.conf.FlagCreatePairsOff,),
+    )  # fmt: skip
+    return exit_code(name, options.run)
 
 
 def exit_code(name: str, work: Callable[[], None]) -> int:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import inspect
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
-import tyro
-
-from benchmarks.command import exit_code
+from benchmarks.command import Study, start
 from rigid.commands.parsing import parse_seeds
 
 
 @dataclass(frozen=True, kw_only=True)
-class Options:
+class Options(Study):
     """Which stabilisers of the discriminator matter, and how much canonical data does it need?
 
     Trains adversaries with one choice of the search changed at a time, all with the same seeds and
@@ -29,14 +25,8 @@ class Options:
       python -m benchmarks.ablations --quick
     """
 
-    out: Path | None = None
-    """Raw runs; runs/ablations by default, runs/ablations-quick with --quick."""
-    results: Path | None = None
-    """Tables, figure and account; results/ablations by default, OUT/results with --quick."""
     seeds: str | None = None
     """Search seeds, as 0,1,2 or 0..9; 0,1,2 by default. More may be added to a finished study."""
-    quick: bool = False
-    """The whole road in two minutes, with budgets that say nothing about any variant."""
 
     def run(self) -> None:
         """Runs the study."""
@@ -45,19 +35,13 @@ class Options:
         from benchmarks.ablations.running import run
 
         plan = QUICK if self.quick else PLAN
-        out = self.out or Path("runs/ablations-quick" if self.quick else "runs/ablations")
-        usual = out / "results" if self.quick else Path("results/ablations")
-        run(plan if seeds is None else plan.with_seeds(seeds), out=out,
-            results=self.results or usual)  # fmt: skip
+        out, results = self.places("ablations")
+        run(plan if seeds is None else plan.with_seeds(seeds), out=out, results=results)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the study: 0 done, 2 bad input, 130 interrupted."""
-    options = tyro.cli(
-        Options, args=arguments, prog="python -m benchmarks.ablations",
-        description=inspect.getdoc(Options), config=(tyro.conf.FlagCreatePairsOff,),
-    )  # fmt: skip
-    return exit_code("ablations", options.run)
+    return start(Options, "ablations", arguments)
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ class Plan:
         return asdict(self)
 
 
-FULL = Plan(name="planted")
+PLAN = Plan(name="planted")
 QUICK = Plan(
     name="quick: shows that the road works, and nothing else",
     weaknesses=(0, 8), rounds=(2, 1), iterations=3, episodes=40,

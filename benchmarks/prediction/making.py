@@ -90,7 +90,7 @@ class Workplace:
         assistant = load_policy(str(self.robot(robot)), task=task, agent="robot")
         person = load_policy(spec, task=task, agent="human")
         identity = {
-            "robot": policy_hash(self.robot(robot)), "human": policy_hash(person),  # type: ignore[arg-type]
+            "robot": policy_hash(self.robot(robot)), "human": policy_hash(person),
             "task": dict(task.describe()), "episodes": self.plan.episodes, "seed": human.seed,
         }  # fmt: skip
 

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import inspect
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-import tyro
-
-from rigid.errors import UserError
+from benchmarks.command import Study, start
 
 if TYPE_CHECKING:
     from benchmarks.reliability.plan import Plan
 
 
 @dataclass(frozen=True, kw_only=True)
-class Options:
+class Options(Study):
     """Does a measurement say the same when everything but the robot is drawn anew?
 
     Measures one robot several times on itch scratching, each time with new canonical data, new
@@ -37,34 +33,14 @@ class Options:
     """demo, standard or paper: the budget of each measurement."""
     measurements: int = 6
     """How many, two or more."""
-    out: Path | None = None
-    """Raw runs; runs/reliability/PRESET by default, runs/reliability-quick with --quick."""
-    results: Path | None = None
-    """Tables, figure and account; results/reliability by default, OUT/results with --quick."""
-    quick: bool = False
-    """The whole road in two minutes, on a task that says nothing about any robot."""
 
+    def run(self) -> None:
+        """Runs the study."""
+        from benchmarks.reliability.running import run
 
-def main() -> int:
-    """Runs the study: 0 done, 2 bad input, 130 interrupted."""
-    options = tyro.cli(
-        Options, prog="python -m benchmarks.reliability", description=inspect.getdoc(Options),
-        config=(tyro.conf.FlagCreatePairsOff,),
-    )  # fmt: skip
-    from benchmarks.reliability.running import run
-
-    usual = "reliability-quick" if options.quick else f"reliability/{options.preset}"
-    out = options.out or Path("runs") / usual
-    results = out / "results" if options.quick else Path("results/reliability")
-    try:
-        run(_plan(options), out=out, results=options.results or results)
-    except UserError as error:
-        print(f"reliability: {error}", file=sys.stderr)
-        return error.exit_code
-    except KeyboardInterrupt:
-        print(f"\nreliability: interrupted; the same command goes on in {out}", file=sys.stderr)
-        return 130
-    return 0
+        # Runs of another preset are other measurements.
+        out, results = self.places("reliability", runs=f"reliability/{self.preset}")
+        run(_plan(self), out=out, results=results)
 
 
 def _plan(options: Options) -> Plan:
@@ -95,4 +71,4 @@ def _plan(options: Options) -> Plan:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(start(Options, "reliability"))

@@ -152,3 +152,12 @@ def test_policies_that_differ_have_different_hashes():
     ]
     assert len({policy_hash(policy) for policy in policies}) == len(policies)
     assert all(len(policy_hash(policy)) == 64 for policy in policies)
+
+
+def test_a_policy_without_weights_has_no_hash():
+    class Stranger:
+        observation_size, action_size = 1, 1
+        initial_state, act = PassivePolicy.initial_state, PassivePolicy.act
+
+    with pytest.raises(TypeError, match="a Stranger has no weights to hash"):
+        policy_hash(Stranger())

@@ -135,7 +135,7 @@ def _short(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 def _robot(spec: str, task: Task, identity: Mapping[str, Any]) -> Policy:
     robot = load_policy(spec, task=task, agent="robot")
-    if policy_hash(robot) != identity["robot"]:  # type: ignore[arg-type]
+    if policy_hash(robot) != identity["robot"]:
         raise UserError(f"robot {spec!r} is not the one that was measured: name it with --robot")
     return robot
 

@@ -259,7 +259,7 @@ def _identity(
     identity = {
         "task": dict(task.describe()),
         "return_range": list(task.return_range or ()),
-        "robot": policy_hash(robot),  # type: ignore[arg-type]
+        "robot": policy_hash(robot),
         "human": policy_hash(human),
         "canonical": data_hash(canonical),
         "preset": budget,

@@ -7,6 +7,7 @@ import json
 import os
 import platform
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -194,11 +195,13 @@ def provenance(command: Sequence[str]) -> dict[str, Any]:
 
 def _git_commit() -> str | None:
     """The commit of the source tree, None for an installed package."""
-    here = Path(__file__).resolve()
+    here, program = Path(__file__).resolve(), shutil.which("git")
+    if program is None:
+        return None
 
     def git(*command: str) -> str:
         found = subprocess.run(
-            ["git", "-C", str(here.parent), *command],  # noqa: S607 (git from the PATH)
+            [program, "-C", str(here.parent), *command],
             capture_output=True, text=True, check=True, timeout=5,
         )  # fmt: skip
         return found.stdout.strip()

@@ -95,15 +95,20 @@ def check_sizes(policy: Policy, name: str, *, task: Task, agent: Agent) -> None:
         )
 
 
-def policy_hash(policy: GaussianPolicy | PassivePolicy | Path | str) -> str:
+def policy_hash(policy: Policy | Path | str) -> str:
     """SHA-256 over the weights and architecture of a policy or a native policy directory.
 
     Part of 'same settings': equal hashes act alike, wherever they lie and whoever trained them.
+
+    Raises:
+        TypeError: The policy has no weights that could be hashed.
     """
     if isinstance(policy, PassivePolicy):
         sizes = json_text({"kind": _PASSIVE, **asdict(policy)})
         return hashlib.sha256(sizes.encode()).hexdigest()
-    stored = policy if isinstance(policy, GaussianPolicy) else load_native(policy).policy
+    stored = load_native(policy).policy if isinstance(policy, Path | str) else policy
+    if not isinstance(stored, GaussianPolicy):
+        raise TypeError(f"a {type(stored).__name__} has no weights to hash")
     return hash_weights(architecture_of(stored), weights_of(stored))
 
 
