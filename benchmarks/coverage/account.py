@@ -8,11 +8,20 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.coverage.account_tables import (
+    bca_table,
+    covers_table,
+    differences_table,
+    gate_table,
+    gated,
+    rivals_table,
+    sized,
+)
 from benchmarks.coverage.ends import INTERVALS
-from benchmarks.coverage.plan import PLAUSIBLE, QUICK, Plan
-from benchmarks.coverage.searching import HULL, NUMBERS
-from benchmarks.coverage.tables import BCA, CHECK, PRINTED, UNPAIRED, Row
-from benchmarks.paired import find, markdown
+from benchmarks.coverage.plan import MOST_ABOVE, PLAUSIBLE, QUICK, Plan
+from benchmarks.coverage.searching import HULL
+from benchmarks.coverage.tables import BCA, CHECK, GATE, PRINTED, Row
+from benchmarks.paired import find
 from rigid.frontier.comparison import HEADLINE_LEVEL
 
 _TEMPLATE = Path(__file__).with_name("account.md")
@@ -39,19 +48,21 @@ def write_account(
         command=f"python -m benchmarks.coverage{' --quick' if plan is QUICK else ''}",
         sizes=listed([str(size) for size in plan.sizes]),
         seeds=len(preset.seeds), level=HEADLINE_LEVEL,
-        searches_verdict=verdict(_sized(headline, PRINTED, plan.sizes)),
-        searches=_covers(headline, PRINTED, plan.sizes),
-        laws_verdict=verdict(_sized(laws, PRINTED, plan.sizes)),
-        laws=_covers(laws, PRINTED, plan.sizes),
-        why=why(_sized(rows, PRINTED, plan.sizes)),
+        searches_verdict=verdict(sized(headline, PRINTED, plan.sizes)),
+        searches=covers_table(headline, PRINTED, plan.sizes),
+        laws_verdict=verdict(sized(laws, PRINTED, plan.sizes)),
+        laws=covers_table(laws, PRINTED, plan.sizes),
+        why=why(sized(rows, PRINTED, plan.sizes)),
         bca_size=plan.bca_size,
         bca_verdict=verdict([row for row in rows if row["interval"] == BCA]),
-        bca=_bca(rows, plan.bca_size),
+        bca=bca_table(rows, plan.bca_size),
         jumps=jumps(population, plan.tolerances),
-        differences=_differences(searches, plan.sizes),
+        differences=differences_table(searches, plan.sizes),
         better=better_difference(searches, plan.sizes),
-        rivals=_rivals(rows, plan.shown),
+        rivals=rivals_table(rows, plan.shown),
         rivals_verdict=_rivals_verdict(rows, plan.sizes),
+        gate=gate_table(rows, plan.sizes), gate_verdict=gate_verdict(rows, plan.sizes),
+        most_above=100 * MOST_ABOVE,
         absent=_shares(plan, lambda n: 0.9**n),
         excluded=_shares(plan, lambda n: 1 - 0.025 ** (1 / n)),
         tolerances=listed([f"{one:g}" for one in plan.tolerances]),
@@ -60,8 +71,8 @@ def write_account(
         validation=preset.validation_episodes, scoring=preset.scoring_episodes,
         draws=plan.draws, redraws=plan.redraws, bca_draws=plan.bca_draws,
         check=_largest_check(searches),
-        error_low=min(row["error_results"] for row in _sized(searches, PRINTED, plan.sizes)),
-        error_high=max(row["error_results"] for row in _sized(searches, PRINTED, plan.sizes)),
+        error_low=min(row["error_results"] for row in sized(searches, PRINTED, plan.sizes)),
+        error_high=max(row["error_results"] for row in sized(searches, PRINTED, plan.sizes)),
         error=(0.95 * 0.05 / plan.draws) ** 0.5,
     )  # fmt: skip
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -97,8 +108,8 @@ def why(rows: Sequence[Row]) -> str:
     if 2 * len(upward) > len(short):
         text += (
             " Seeds that miss the long upper tail have a low mean and a small spread at once: the "
-            "interval is too low and too narrow together. So it is the *upper* end, the one that "
-            "`rigid gate` holds against a limit, that promises too much."
+            "interval is too low and too narrow together. So it is the *upper* end that promises "
+            "too much, and `rigid gate` holds another one against a limit (below)."
         )
     return text
 
@@ -137,89 +148,30 @@ def listed(words: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
-def _sized(rows: Sequence[Row], interval: str, sizes: Sequence[int]) -> list[Row]:
-    return [row for row in rows if row["interval"] == interval and row["n"] in sizes]
-
-
-def _covers(rows: Sequence[Row], interval: str, sizes: Sequence[int]) -> str:
-    """A line for each quantity: its skewness and its cover at each size."""
-    heads = ["", "skewness", *(f"n = {size}" for size in sizes), f"truth above, n = {sizes[-1]}"]
-    lines = []
-    for name in dict.fromkeys(row["quantity"] for row in rows):
-        mine = [find(rows, quantity=name, interval=interval, n=size) for size in sizes]
-        covers = [_cover(row) for row in mine]
-        last = f"{mine[-1]['truth_above']:.3f}"
-        skewness = mine[0]["skewness"]
-        skewed = "–" if skewness is None else f"{skewness:.1f}"
-        lines.append([f"`{name}`", skewed, *covers, last])
-    return markdown(heads, lines)
-
-
-def _cover(row: Row) -> str:
-    """The cover; bold where it is too little."""
-    text = f"{row['cover']:.3f}"
-    return f"**{text}**" if row["cover"] < PLAUSIBLE[0] else text
-
-
-def _bca(rows: Sequence[Row], size: int) -> str:
-    lines = [
-        [
-            f"`{row['quantity']}`",
-            f"{_cover(row)} ± {row['error']:.3f}",
-            _cover(find(rows, quantity=row["quantity"], interval=PRINTED, n=size)),
-        ]
-        for row in rows
-        if row["interval"] == BCA
-    ]
-    return markdown(["", f"BCa, n = {size}", "t, as printed"], lines)
-
-
-def _rivals(rows: Sequence[Row], sizes: Sequence[int]) -> str:
-    heads = ["", *(f"{name}, n = {size}" for size in sizes for name in INTERVALS)]
-    lines = []
-    for name in dict.fromkeys(row["quantity"] for row in rows):
-        if name.startswith(HULL):
-            continue
-        cells = [f"`{name}`"]
-        for size in sizes:
-            usual = find(rows, quantity=name, interval=PRINTED, n=size)
-            for interval in INTERVALS:
-                row = find(rows, quantity=name, interval=interval, n=size)
-                cells.append(f"{_cover(row)} {_wider(row, usual)}")
-        lines.append(cells)
-    return markdown(heads, lines)
-
-
 def _rivals_verdict(rows: Sequence[Row], sizes: Sequence[int]) -> str:
     """How many cases each interval loses: covers below the plausible range."""
     parts = []
     for name in INTERVALS:
-        mine = _sized(rows, name, sizes)
+        mine = sized(rows, name, sizes)
         short = sum(row["cover"] < PLAUSIBLE[0] for row in mine)
         worst = min(row["cover"] for row in mine)
         parts.append(f"*{name}* {short} of {len(mine)} cases (worst {worst:.3f})")
     return f"Covers below {100 * PLAUSIBLE[0]:.0f} %: {', '.join(parts)}."
 
 
-def _differences(rows: Sequence[Row], sizes: Sequence[int]) -> str:
-    """Covers of paired differences: printed, and without credit for pairing."""
-    heads = ["difference of", *(f"n = {size}: as printed | unpaired too" for size in sizes)]
-    lines = []
-    for name in (*NUMBERS, HULL):
-        cells = [f"`{name}`"]
-        for size in sizes:
-            usual, wider = (
-                find(rows, quantity=f"{name}, difference", interval=interval, n=size)
-                for interval in (PRINTED, UNPAIRED)
-            )
-            cells += [_cover(usual), f"{_cover(wider)} {_wider(wider, usual)}"]
-        lines.append(cells)
-    return markdown(" | ".join(heads).split(" | "), lines)
+def gate_verdict(rows: Sequence[Row], sizes: Sequence[int]) -> str:
+    """How many cases each upper bound loses: truths above it too often.
 
-
-def _wider(row: Row, usual: Row) -> str:
-    """By how much an interval is wider than the printed one."""
-    return f"(× {row['width'] / usual['width']:.2f})" if usual["width"] > 0 else "(× –)"
+    Args:
+        rows: Of the table.
+        sizes: The numbers of seeds that count.
+    """
+    parts = []
+    for label, interval in (("t", PRINTED), ("gate", GATE)):
+        above = [row["truth_above"] for row in gated(rows, interval, sizes)]
+        often = sum(share > MOST_ABOVE for share in above)
+        parts.append(f"*{label}* {often} of {len(above)} cases (worst {max(above):.3f})")
+    return f"Truth above the bound in more than {100 * MOST_ABOVE:g} %: {', '.join(parts)}."
 
 
 def better_difference(rows: Sequence[Row], sizes: Sequence[int]) -> str:

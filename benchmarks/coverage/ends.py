@@ -9,10 +9,10 @@ from collections.abc import Callable
 
 import numpy as np
 from jaxtyping import Float
-from scipy.special import expit, logit, stdtrit
+from scipy.special import stdtrit
 from scipy.stats import ksone
 
-from rigid.frontier.intervals import bca_interval, t_ends
+from rigid.frontier.intervals import bca_interval, both_scales_ends, t_ends
 
 CONFIDENCE = 0.95
 
@@ -26,30 +26,11 @@ def printed(values: Float[np.ndarray, "n d"], bounds: Bounds) -> Float[np.ndarra
 
 
 def both_scales(values: Float[np.ndarray, "n d"], bounds: Bounds) -> Float[np.ndarray, "2 d"]:
-    """From the lower to the upper end of two t intervals: of the mean, and of its logit.
+    """The wider end, on either side, of t intervals of the mean and of its logit.
 
-    The second has the standard error carried over by the slope of the logit at the mean. Near a
-    bound its far end lies farther out than the first one's, which is where a skewed law hides what
-    a small sample has not seen. It still brackets the mean, not a typical value.
-
-    Example:
-        >>> values = np.array([[0.01], [0.02], [0.06]])
-        >>> printed(values, (0.0, 1.0)).round(3).ravel().tolist()
-        [0.0, 0.096]
-        >>> both_scales(values, (0.0, 1.0)).round(3).ravel().tolist()
-        [0.0, 0.228]
+    Its upper end is the bound that `rigid gate` holds against a limit.
     """
-    low, high = t_ends(values, CONFIDENCE, (-np.inf, np.inf))
-    start, width = bounds[0], bounds[1] - bounds[0]
-    # Values all at one bound have no spread; any centre off the bound gives them no width.
-    share = np.clip(((low + high) / 2 - start) / width, 1e-12, 1 - 1e-12)
-    reach = (high - low) / (2 * width) / (share * (1 - share))
-    stretched = start + width * expit(logit(share) + np.array([[-1.0], [1.0]]) * reach)
-    clipped = np.clip([low, high], *bounds)
-    ends: Float[np.ndarray, "2 d"] = np.stack([
-        np.minimum(clipped[0], stretched[0]), np.maximum(clipped[1], stretched[1]),
-    ])  # fmt: skip
-    return ends
+    return both_scales_ends(values, CONFIDENCE, bounds)
 
 
 def guaranteed(values: Float[np.ndarray, "n d"], bounds: Bounds) -> Float[np.ndarray, "2 d"]:

@@ -9,6 +9,10 @@ from rigid.presets import Preset
 PLAUSIBLE = (0.92, 0.98)
 """Covers that a 95 % interval may have before the account names it. Ours."""
 
+MOST_ABOVE = 0.05
+"""Share of draws with the truth above an upper bound beyond which the account marks it: twice the
+nominal 2.5 %. Ours."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:

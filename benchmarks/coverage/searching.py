@@ -20,13 +20,13 @@ from rigid.commands.parsing import spoken
 from rigid.compute.measurement import measure_robot
 from rigid.compute.preparation import Subject
 from rigid.frontier.comparison import HEADLINE_LEVEL, numbers_of
-from rigid.frontier.curve import hull_at
-from rigid.frontier.result import Frontier, measured_points
-from rigid.frontier.statistics import sound_points_by_seed
+from rigid.frontier.result import Frontier
 from rigid.presets import Preset
 from rigid.tasks.analytic.offset_catch import OffsetCatch
 
 NUMBERS = ("worst_at", "auc_natural", "auc")
+GATED = ("worst_at", "auc")
+"""Those that `rigid gate` takes a limit for."""
 HULL = "hull_at"
 """Height of the hull at the naturalness of `worst_at`: no headline number, but continuous."""
 _SECONDS = 5e-6, 0.4
@@ -81,15 +81,10 @@ def _searched(preset: Preset, tolerance: float, out: Path, place: int) -> list[d
 def rows_of(frontier: Frontier, tolerance: float, seeds: Sequence[int]) -> list[dict[str, Any]]:
     """The rows of one robot."""
     numbers = numbers_of(frontier)
-    anchor = frontier.data["canonical"]["adversarialness"]
-    points = sound_points_by_seed(measured_points(frontier.points), seeds)
     return [
         {"tolerance": tolerance, "seed": seed}
-        | {name: numbers[name].by_seed[str(seed)] for name in NUMBERS}
-        | {
-            HULL: float(hull_at(points[seed], [HEADLINE_LEVEL], anchor)[0]),
-            "worst_lambda": _worst_lambda(frontier, seed),
-        }
+        | {name: numbers[name].by_seed[str(seed)] for name in (*NUMBERS, HULL)}
+        | {"worst_lambda": _worst_lambda(frontier, seed)}
         for seed in seeds
     ]
 

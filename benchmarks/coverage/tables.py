@@ -24,6 +24,8 @@ from benchmarks.coverage.searching import HULL, NUMBERS
 Row = dict[str, Any]
 PRINTED = "t, as printed"
 CHECK = "t, without replacement"
+GATE = "t, both scales"
+"""Its upper end is what `rigid gate` holds against a limit."""
 UNPAIRED = "t, unpaired too"
 BCA = "BCa"
 

@@ -7,6 +7,8 @@ import shutil
 
 import pytest
 
+from rigid.frontier.intervals import t_interval, upper_bound
+
 
 @pytest.fixture
 def two_runs(small_run, tmp_path):
@@ -23,10 +25,22 @@ def two_runs(small_run, tmp_path):
 def test_compare_shows_every_robot_and_its_difference_to_the_first(rigid, two_runs):
     code, out, err = rigid("compare", *two_runs)
     assert (code, err) == (0, "")
-    assert "worst at ≥ 0.9" in out
+    titles = [
+        out.index(title) for title in ("worst at ≥ 0.9", "hull at 0.9", "area over [0.8, 1]", "AUC")
+    ]
+    assert titles == sorted(titles)
     assert f"minus {two_runs[0].name}, on the search seeds that both have" in out
     assert sum(line.startswith("worse") for line in out.splitlines()) == 2
     assert "a repeat of " in out
+
+
+def test_compare_says_by_which_number_to_tell_robots_apart(rigid, two_runs):
+    out = rigid("compare", *two_runs)[1]
+    said = (
+        "hull at 0.9 tells robots apart more steadily: 95 % intervals of its differences covered "
+        "94 to 96 %, those of worst at ≥ 0.9 76 to 87 % (results/coverage)"
+    )
+    assert said in out.splitlines()
 
 
 def test_compare_as_json_has_numbers_intervals_and_differences(rigid, two_runs):
@@ -38,6 +52,14 @@ def test_compare_as_json_has_numbers_intervals_and_differences(rigid, two_runs):
     low, high = second["auc"]["interval"]
     assert low <= second["auc"]["mean"] <= high
     assert set(second["auc"]["by_seed"]) == {"0", "1"}
+
+
+def test_compare_as_json_has_the_hull_beside_the_headline_numbers(rigid, two_runs):
+    first, second = json.loads(rigid("compare", *two_runs, "--json")[1])
+    means = [robot["hull_at"]["mean"] for robot in (first, second)]
+    assert second["hull_at"]["minus_baseline"]["mean"] == pytest.approx(means[1] - means[0])
+    assert means[1] > means[0]
+    assert list(first["hull_at"]) == list(first["worst_at"])
 
 
 def test_compare_takes_two_or_more(rigid, two_runs):
@@ -65,15 +87,61 @@ def test_a_strangers_text_cannot_steer_the_terminal(rigid, two_runs):
 def test_the_gate_opens_when_every_upper_bound_keeps_its_limit(rigid, two_runs):
     code, out, _ = rigid("gate", two_runs[0], "--max-worst", "1", "--max-auc", "1")
     assert code == 0
-    assert [line[:6] for line in out.splitlines()] == ["ok    ", "ok    "]
+    assert [line[:6] for line in out.splitlines()] == ["ok    ", "ok    ", "upper "]
 
 
 def test_the_gate_shuts_with_3_at_an_upper_bound_beyond_its_limit(rigid, two_runs, small_run):
-    mean, (_, high) = small_run.auc, small_run.auc_interval
-    assert mean < high
-    code, out, _ = rigid("gate", two_runs[0], "--max-auc", (mean + high) / 2)
+    mean, bound = small_run.auc, upper_bound(list(small_run.data["auc_by_seed"].values()))
+    assert mean < bound
+    code, out, _ = rigid("gate", two_runs[0], "--max-auc", (mean + bound) / 2)
     assert code == 3
-    assert out.startswith(f"FAILED  AUC: {mean:.3f}, upper bound {high:.3f}, limit ")
+    assert out.startswith(f"FAILED  AUC: {mean:.3f}, upper bound {bound:.3f} (t")
+
+
+@pytest.fixture
+def with_worst(small_run, tmp_path):
+    """Makes the toy measurement one whose seeds found these worst humans at naturalness 0.9."""
+
+    def changed(*worst):
+        directory = tmp_path / "seeds"
+        shutil.copytree(small_run.directory, directory)
+        data = json.loads((directory / "frontier.json").read_text())
+        data["points"] = [
+            {**data["points"][0], "id": f"s{seed}", "seed": seed}
+            | {"naturalness": 0.9, "adversarialness": height, "faults": 0}
+            for seed, height in enumerate(worst)
+        ]
+        data["auc_by_seed"] = {str(seed): 0.5 for seed in range(len(worst))}
+        data["canonical"]["adversarialness"] = 0.0
+        (directory / "frontier.json").write_text(json.dumps(data))
+        return directory
+
+    return changed
+
+
+SKEWED, SYMMETRIC = (0.01, 0.02, 0.06), (0.5, 0.55, 0.6)
+
+
+def test_seeds_skewed_towards_0_that_t_would_let_pass_fail(rigid, with_worst):
+    assert t_interval(SKEWED).high < 0.1
+    code, out, _ = rigid("gate", with_worst(*SKEWED), "--max-worst", "0.1")
+    assert code == 3
+    verdict, reason = out.splitlines()
+    assert verdict == (
+        "FAILED  worst at naturalness ≥ 0.9: 0.030, upper bound 0.228 (t of the logit; t: 0.096), "
+        "limit 0.1"
+    )
+    assert reason == (
+        "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since t alone "
+        "promises too much where seeds are skewed towards 0"
+    )
+
+
+def test_symmetric_seeds_in_the_middle_are_held_by_t(rigid, with_worst):
+    high = t_interval(SYMMETRIC).high
+    code, out, _ = rigid("gate", with_worst(*SYMMETRIC), "--max-worst", high + 1e-6)
+    assert code == 0
+    assert f"0.550, upper bound {high:.3f} (t), limit" in out
 
 
 def test_the_gate_looks_from_the_naturalness_that_was_asked_for(rigid, two_runs, small_run):
@@ -91,6 +159,8 @@ def test_a_robot_that_became_worse_fails_against_its_baseline(rigid, two_runs):
     code, out, _ = rigid("gate", worse, "--baseline", better, *options)
     assert code == 3
     assert "worst at naturalness ≥ 0, minus the baseline's" in out
+    assert "(paired t), limit 0" in out
+    assert "of the logit" not in out
     assert rigid("gate", worse, "--baseline", better, "--margin", "1", *options)[0] == 0
 
 

@@ -8,18 +8,22 @@ import pytest
 
 from rigid.errors import UserError
 from rigid.frontier.comparison import compare, numbers_of, repeat_spread
+from rigid.frontier.intervals import upper_bound
 from rigid.frontier.result import Frontier
 
 IDENTITY = {"task": {"name": "reach"}, "preset": {"iterations": 40}, "measure": "lsgan"}
 
 
+def point(seed: int, height: float, naturalness: float = 0.9) -> dict[str, object]:
+    return {
+        "id": f"s{seed}", "seed": seed, "naturalness": naturalness, "naturalness_own": None,
+        "adversarialness": height, "faults": 0, "episodes": 10,
+    }  # fmt: skip
+
+
 def robot(heights: dict[int, float], **changes) -> Frontier:
     """A robot whose worst human at naturalness 0.9 harms by `heights`, seed by seed."""
-    points = [
-        {"id": f"s{seed}", "seed": seed, "naturalness": 0.9, "naturalness_own": None,
-         "adversarialness": height, "faults": 0, "episodes": 10}
-        for seed, height in heights.items()
-    ]  # fmt: skip
+    points = [point(seed, height) for seed, height in heights.items()]
     data = {
         "points": points, "canonical": {"adversarialness": 0.0}, "return_range": [-1.0, 1.0],
         "auc_by_seed": {str(seed): 0.5 for seed in heights},
@@ -42,6 +46,26 @@ def test_numbers_are_computed_from_the_points():
 
 def test_worst_at_looks_from_the_level_that_was_asked_for():
     assert numbers_of(robot({0: 0.2}), level=0.95)["worst_at"].by_seed == {"0": 0.0}
+
+
+def test_hull_at_is_the_height_at_the_level_that_was_asked_for():
+    # Half-way between the human at 0.9 and the anchor at 1.
+    assert numbers_of(robot({0: 0.2}), level=0.95)["hull_at"].by_seed["0"] == pytest.approx(0.1)
+
+
+def test_a_step_over_the_threshold_moves_worst_at_but_hardly_the_hull():
+    below, above = (
+        robot({}, points=[point(0, 0.8, naturalness)], auc_by_seed={"0": 0.5})
+        for naturalness in (0.899, 0.901)
+    )
+    found = compared(below, above)[1].against
+    assert found["worst_at"].mean == pytest.approx(0.8)
+    assert found["hull_at"].mean == pytest.approx(0.8 - 0.8 * 0.1 / 0.101)
+
+
+def test_the_upper_bound_of_a_number_is_that_of_its_seeds():
+    number = numbers_of(robot({0: 0.01, 1: 0.02, 2: 0.06}))["worst_at"]
+    assert number.upper_bound == upper_bound([0.01, 0.02, 0.06]) > number.interval.high
 
 
 def test_the_first_robot_is_the_baseline_of_all():

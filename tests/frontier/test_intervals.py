@@ -9,7 +9,14 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from rigid.frontier.intervals import Interval, bca_interval, paired_difference, t_interval
+from rigid.frontier.intervals import (
+    Interval,
+    bca_interval,
+    both_scales_ends,
+    paired_difference,
+    t_interval,
+    upper_bound,
+)
 
 EVERYWHERE = (-math.inf, math.inf)
 
@@ -46,6 +53,54 @@ def test_t_interval_of_three_seeds_covers_what_it_says():
     intervals = [t_interval(sample, bounds=EVERYWHERE) for sample in samples]
     covered = np.mean([low <= 0.5 <= high for low, high in intervals])
     assert covered == pytest.approx(0.95, abs=0.015)
+
+
+def test_the_upper_bound_of_skewed_values_is_that_of_their_logit():
+    values = [0.01, 0.02, 0.06]
+    mean, error = np.mean(values), scipy.stats.sem(values)
+    stretched = scipy.stats.t.ppf(0.975, 2) * error / (mean * (1 - mean))
+    assert upper_bound(values) == pytest.approx(
+        scipy.special.expit(scipy.special.logit(mean) + stretched)
+    )
+
+
+def test_the_upper_bound_of_values_near_1_is_that_of_t():
+    assert upper_bound([0.8, 0.85, 0.86]) == t_interval([0.8, 0.85, 0.86]).high < 1.0
+
+
+def test_both_upper_ends_agree_on_symmetric_values_in_the_middle():
+    values = [0.35, 0.4, 0.45]
+    assert upper_bound(values) == pytest.approx(t_interval(values).high, abs=0.005)
+
+
+def test_the_upper_bound_of_equal_values_is_their_value():
+    assert [upper_bound([value] * 4) for value in (0.0, 0.25, 1.0)] == [0.0, 0.25, 1.0]
+
+
+def test_the_upper_bound_grows_with_the_confidence():
+    values = [0.1, 0.2, 0.4]
+    assert upper_bound(values, 0.5) < upper_bound(values, 0.9) < upper_bound(values) < 1.0
+
+
+def test_one_value_has_no_upper_bound():
+    assert upper_bound([0.4]) is None
+
+
+def test_an_upper_bound_is_for_shares():
+    with pytest.raises(ValueError, match=r"values must lie in \[0, 1\], got \[-0\.2, 0\.1\]"):
+        upper_bound([-0.2, 0.1])
+
+
+def test_an_area_may_leave_the_shares_by_rounding():
+    assert upper_bound([1.0, 1.0 + 2e-16]) == 1.0
+
+
+def test_both_scales_of_many_draws_are_those_of_each():
+    values = generator().beta(1, 9, size=(5, 7))
+    together = both_scales_ends(values, 0.95, (0.0, 1.0))
+    alone = [upper_bound(column) for column in values.T]
+    assert together.shape == (2, 7)
+    assert together[1].tolist() == pytest.approx(alone)
 
 
 def test_bca_is_given_from_thirty_values_on():

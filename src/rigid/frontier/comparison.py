@@ -12,13 +12,19 @@ from typing import Any
 
 from rigid.errors import UserError
 from rigid.files import first_difference
-from rigid.frontier.curve import area_under_frontier, auc_natural, worst_at
-from rigid.frontier.intervals import Interval, PairedDifference, paired_difference, t_interval
+from rigid.frontier.curve import area_under_frontier, auc_natural, hull_at, worst_at
+from rigid.frontier.intervals import (
+    Interval,
+    PairedDifference,
+    paired_difference,
+    t_interval,
+    upper_bound,
+)
 from rigid.frontier.result import Frontier, measured_points
 from rigid.frontier.statistics import sound_points_by_seed
 
 HEADLINE_LEVEL = 0.9
-"""Naturalness from which on the headline `worst_at` looks. Ours."""
+"""Naturalness from which on the headline `worst_at` looks, and at which `hull_at` does. Ours."""
 
 _OWN = ("robot", "human", "canonical", "lambdas")
 """Entries of a run's identity in which robots may differ; all others make up the measure."""
@@ -26,7 +32,7 @@ _OWN = ("robot", "human", "canonical", "lambdas")
 
 @dataclass(frozen=True)
 class Number:
-    """One headline number of one robot."""
+    """One number of one robot, a share in [0, 1]."""
 
     by_seed: Mapping[str, float]
 
@@ -40,6 +46,11 @@ class Number:
         """95 % t interval over search seeds; None for one seed."""
         return t_interval(list(self.by_seed.values()))
 
+    @property
+    def upper_bound(self) -> float | None:
+        """What a limit is held against: `intervals.upper_bound`, >= `interval.high`."""
+        return upper_bound(list(self.by_seed.values()))
+
 
 @dataclass(frozen=True)
 class Row:
@@ -48,17 +59,26 @@ class Row:
     name: str
     frontier: Frontier
     numbers: Mapping[str, Number]
-    """`worst_at`, `auc_natural` and `auc`, in this order."""
+    """From `numbers_of`."""
     against: Mapping[str, PairedDifference] | None
     """Each number minus the baseline's, on common seeds; None for the baseline itself."""
 
 
 def numbers_of(frontier: Frontier, level: float = HEADLINE_LEVEL) -> dict[str, Number]:
-    """The headline numbers of a robot, seed by seed, recomputed from its points.
+    """The numbers that robots are compared by, seed by seed, recomputed from the points.
+
+    `worst_at`, `hull_at`, `auc_natural` and `auc`, in this order. `hull_at` is no headline number
+    but the steadier one of a difference. It is the height of the hull at the level of `worst_at`:
+    how bad a natural motion gets when the human may mix two ways of moving from episode to episode.
+    No threshold cuts it, while one adversary just above the level with one robot and just below it
+    with the other makes a difference of `worst_at` jump (`benchmarks.coverage`).
 
     Args:
         frontier: A measurement.
-        level: Naturalness from which on `worst_at` looks, in [0, 1].
+        level: Naturalness of `worst_at` and `hull_at`, in [0, 1].
+
+    Raises:
+        UserError: A point of the measurement is malformed.
     """
     seeds = [int(seed) for seed in frontier.data["auc_by_seed"]]
     anchor = frontier.data["canonical"]["adversarialness"]
@@ -66,6 +86,9 @@ def numbers_of(frontier: Frontier, level: float = HEADLINE_LEVEL) -> dict[str, N
         by_seed = sound_points_by_seed(measured_points(frontier.points), seeds)
         return {
             "worst_at": Number({str(s): worst_at(p, level, anchor) for s, p in by_seed.items()}),
+            "hull_at": Number(
+                {str(s): float(hull_at(p, [level], anchor)[0]) for s, p in by_seed.items()}
+            ),
             "auc_natural": Number({str(s): auc_natural(p, anchor) for s, p in by_seed.items()}),
             "auc": Number({str(s): area_under_frontier(p, anchor) for s, p in by_seed.items()}),
         }
@@ -84,7 +107,7 @@ def compare(
     Args:
         frontiers: Measurements by name.
         identities: What each was measured with: `identity` of its settings.json, by the same names.
-        level: Naturalness of `worst_at`.
+        level: Naturalness of `worst_at` and `hull_at`.
 
     Raises:
         UserError: Two measurements are not of the same measure, or have no seed in common.

@@ -155,7 +155,7 @@ def worst_at(points: Points, threshold: float, anchor: Anchor) -> float:
 
 
 def hull_at(points: Points, grid: _Grid, anchor: Anchor | None = None) -> Float[np.ndarray, " g"]:
-    """Returns the hull's height at each naturalness of a grid, for charts. Shape (g,).
+    """Returns the hull's height at each naturalness of a grid. Shape (g,).
 
     Raises:
         ValueError: As `area_under_frontier`, or `grid` is not one row of values in [0, 1].

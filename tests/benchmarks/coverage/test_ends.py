@@ -16,7 +16,7 @@ from benchmarks.coverage.ends import (
     unpaired_too,
 )
 from benchmarks.coverage.laws import rare
-from rigid.frontier.intervals import bca_interval, t_interval
+from rigid.frontier.intervals import bca_interval, t_interval, upper_bound
 
 SHARE, DIFFERENCE = (0.0, 1.0), (-1.0, 1.0)
 
@@ -28,6 +28,11 @@ def draws(size, count=20_000):
 def test_the_printed_interval_is_that_of_the_package():
     values = np.array([[0.02], [0.1], [0.3]])
     assert tuple(printed(values, SHARE)[:, 0]) == t_interval(values[:, 0])
+
+
+def test_the_upper_end_of_both_scales_is_the_bound_that_the_gate_holds():
+    values = np.array([[0.02], [0.1], [0.3]])
+    assert both_scales(values, SHARE)[1, 0] == upper_bound(values[:, 0])
 
 
 def test_bca_is_that_of_the_package():

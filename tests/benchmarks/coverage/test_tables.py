@@ -9,15 +9,17 @@ import pytest
 
 from benchmarks.coverage.account import (
     better_difference,
+    gate_verdict,
     jumps,
     listed,
     verdict,
     why,
     write_account,
 )
+from benchmarks.coverage.account_tables import gate_table
 from benchmarks.coverage.laws import beta
 from benchmarks.coverage.plan import PLAN
-from benchmarks.coverage.tables import CHECK, PRINTED, law_rows, search_rows, series_of
+from benchmarks.coverage.tables import CHECK, GATE, PRINTED, law_rows, search_rows, series_of
 from benchmarks.paired import find
 
 SMALL = replace(
@@ -50,7 +52,13 @@ def rows(series):
 
 
 def row(quantity="auc, tolerance 1", n=3, interval=PRINTED, **changes):
-    facts = {"cover": 0.95, "truth_above": 0.025, "truth_below": 0.025, "leaves_92_98": False}
+    facts = {
+        "source": "searches",
+        "cover": 0.95,
+        "truth_above": 0.025,
+        "truth_below": 0.025,
+        "leaves_92_98": False,
+    }
     return {"quantity": quantity, "n": n, "interval": interval, **facts, **changes}
 
 
@@ -134,11 +142,64 @@ def test_the_hull_is_called_better_only_where_it_is_in_cover_and_width(width, be
     assert ("better number" in said) == better
 
 
+def gated_cases(quantity, t, gate, **changes):
+    """The same number with both upper bounds."""
+    return [
+        row(quantity, interval=interval, truth_above=above, **changes)
+        for interval, above in ((PRINTED, t), (GATE, gate))
+    ]
+
+
+def test_the_gates_table_shows_both_bounds_and_marks_what_is_exceeded_too_often():
+    cases = [
+        *gated_cases("auc, tolerance 1", 0.02, 0.01),
+        *gated_cases("rare", 0.3, 0.051, source="law"),
+    ]
+    lines = gate_table(cases, [3]).splitlines()
+    assert lines[0] == "|  | n = 3: t | gate |"
+    assert lines[2:] == [
+        "| `auc, tolerance 1` | 0.020 | 0.010 |",
+        "| `rare` | **0.300** | **0.051** |",
+    ]
+
+
+def test_the_gates_table_leaves_out_what_the_gate_takes_no_such_bound_of():
+    others = ("auc_natural, tolerance 1", "hull_at, tolerance 1", "worst_at, difference")
+    cases = [case for name in others for case in gated_cases(name, 0.3, 0.3)]
+    assert len(gate_table(cases, [3]).splitlines()) == 2
+
+
+def test_the_gates_verdict_counts_where_the_truth_lies_above_too_often():
+    cases = [
+        *gated_cases("worst_at, tolerance 1", 0.08, 0.04),
+        *gated_cases("rare", 0.3, 0.2, source="law"),
+    ]
+    expected = (
+        "Truth above the bound in more than 5 %: *t* 2 of 2 cases (worst 0.300), "
+        "*gate* 1 of 2 cases (worst 0.200)."
+    )
+    assert gate_verdict(cases, [3]) == expected
+
+
+def test_the_gate_promises_less_than_t_of_a_skewed_law(rows):
+    found = [
+        find(rows, quantity="Beta(0.2, 9.8)", n=5, interval=interval)["truth_above"]
+        for interval in (PRINTED, GATE)
+    ]
+    assert found[0] > 1.5 * found[1]
+
+
 def test_the_account_holds_the_covers_of_the_table(rows, population, tmp_path):
     write_account(tmp_path / "README.md", SMALL, population, rows)
     text = (tmp_path / "README.md").read_text(encoding="utf-8")
     covers = [find(rows, quantity="Beta(8, 8)", n=n, interval=PRINTED)["cover"] for n in (3, 5)]
     assert f"| `Beta(8, 8)` | 0.0 | {covers[0]:.3f} | {covers[1]:.3f} |" in text
+    above = [
+        find(rows, quantity="Beta(8, 8)", n=n, interval=interval)["truth_above"]
+        for n in (3, 5)
+        for interval in (PRINTED, GATE)
+    ]
+    assert f"| `Beta(8, 8)` | {' | '.join(f'{share:.3f}' for share in above)} |" in text
     assert "{" not in text
 
 
