@@ -79,6 +79,6 @@ def test_presets_describe_themselves_as_json():
     for name, preset in PRESETS.items():
         described = json.loads(json.dumps(preset.describe()))
         assert described["name"] == name
-        assert preset.env_steps(100) == 100 * preset.adversaries * preset.iterations * (
-            preset.episodes
-        )
+        groups = len(preset.seeds) * len(preset.per_round)
+        blocks = groups * preset.sharing.slots if preset.sharing else preset.adversaries
+        assert preset.env_steps(100) == 100 * blocks * preset.iterations * preset.episodes

@@ -17,7 +17,7 @@ from rigid.compute.endings import measure
 from rigid.compute.group import GroupInputs, GroupPlan, convergence, train_group
 from rigid.compute.preparation import Prepared, Subject, prepare
 from rigid.compute.scoring import play_with
-from rigid.learning.adversary import group_actor, phase_rng
+from rigid.learning.group_play import group_actor, phase_rng
 from rigid.naturalness.features import DEFAULT
 from rigid.naturalness.panel import AXIS, LEVELS, Fold, Panel, Rate, naturalness, train_panel
 from rigid.naturalness.referee import RefereeSettings

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from rigid.errors import UserError
+from rigid.learning.conditioned import Sharing
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +36,8 @@ class Preset:
     """Canonical episodes that the search may see (paper, 'Collecting Canonical Datasets')."""
     referee_canonical: int = 100
     """Canonical episodes in each of the referee's three parts. Ours."""
+    sharing: Sharing | None = None
+    """How many λ share a network; None: a network for each λ, as in the paper."""
     stamp: str | None = None
     """Printed on the report."""
 
@@ -45,7 +48,9 @@ class Preset:
 
     def env_steps(self, horizon: int) -> int:
         """Environment steps of training in all."""
-        return self.adversaries * self.iterations * self.episodes * horizon
+        groups = len(self.seeds) * len(self.per_round)
+        blocks = self.adversaries if self.sharing is None else groups * self.sharing.slots
+        return blocks * self.iterations * self.episodes * horizon
 
     def describe(self) -> dict[str, Any]:
         """Every number, as JSON."""
@@ -67,12 +72,14 @@ PRESETS = {
     "standard": Preset(
         name="standard",
         seeds=tuple(range(8)),
-        per_round=(6,),
-        iterations=120,
-        episodes=48,
-        scoring_episodes=200,
-        referee_episodes=100,
-        validation_episodes=50,
+        per_round=(8,),
+        iterations=80,
+        episodes=6,
+        scoring_episodes=100,
+        referee_episodes=60,
+        validation_episodes=30,
+        lambda_min=0.03,
+        sharing=Sharing(),
     ),
     # Paper, appendices 'Computational Complexity' and 'Additional Details of the ... Frontier'.
     "paper": Preset(

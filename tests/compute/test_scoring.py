@@ -12,7 +12,8 @@ import pytest
 from rigid.compute.endings import Ended, measure
 from rigid.compute.preparation import settings_for
 from rigid.compute.scoring import Court, Judged, Ruler, _shown, score, seen_by_referee
-from rigid.learning.adversary import Opponent, start_adversary
+from rigid.learning.adversary import start_adversary
+from rigid.learning.group_play import Opponent
 from rigid.learning.rollout import play, policy_actor
 from rigid.naturalness.referee import RefereeSettings
 from tests.compute.tiny import TINY, FilmedReach

@@ -6,7 +6,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from rigid.learning.ppo import advantages
+from rigid.learning.advantages import advantages, signal_share, standardised
 
 
 def column(*values):
@@ -60,3 +60,28 @@ def test_what_follows_a_fault_does_not_reach_back():
     weight = column(1.0, 0.0, 0.0)
     found = advantages(reward, value, gamma=0.5, gae_lambda=0.5, weight=weight)
     np.testing.assert_array_equal(found[:, 0], [1 + 0.5 * 1 - 0.5, 0.0, 0.0])
+
+
+def test_each_block_is_standardised_on_its_own():
+    gain = jnp.array([[1.0, 3.0, 10.0, 30.0]])
+    found = standardised(gain, jnp.ones((1, 4)), blocks=2)
+    np.testing.assert_allclose(found, [[-1, 1, -1, 1]], rtol=1e-5)
+
+
+def test_a_block_with_a_weak_signal_counts_for_less_than_the_loudest():
+    gain = jnp.array([[-0.1, 0.1, -0.2, 0.2]])
+    share, strongest = signal_share(gain, jnp.ones((1, 4)), 0.4, blocks=2)
+    np.testing.assert_allclose(share, [[0.5, 0.5, 1, 1]], rtol=1e-3)
+    assert float(strongest) == pytest.approx(0.5, rel=1e-3)
+
+
+def test_above_the_floor_all_blocks_count_alike():
+    gain = jnp.array([[-1.0, 1.0, -20.0, 20.0]])
+    share, strongest = signal_share(gain, jnp.ones((1, 4)), 0.4, blocks=2)
+    assert share.tolist() == [[1, 1, 1, 1]]
+    assert float(strongest) == 1
+
+
+def test_without_a_floor_every_signal_counts_in_full():
+    share, strongest = signal_share(jnp.full((1, 2), 1e-6), jnp.ones((1, 2)), 0.0)
+    assert (share.tolist(), float(strongest)) == ([[1, 1]], 1)

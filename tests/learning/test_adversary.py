@@ -15,15 +15,12 @@ from rigid.learning import adversary as adversaries
 from rigid.learning.adversary import (
     AdversarySettings,
     Experience,
-    Opponent,
-    canonical_motion,
-    group_actor,
     pace_at,
-    phase_rng,
     shaped_reward,
     start_adversary,
     train_iteration,
 )
+from rigid.learning.group_play import Opponent, canonical_motion, group_actor, phase_rng
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import play, policy_actor
 from rigid.naturalness.gan import remember

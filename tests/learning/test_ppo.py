@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from rigid.learning.advantages import standardised
 from rigid.learning.adversary import AdversarySettings
 from rigid.learning.best_response import ResponseSettings
 from rigid.learning.cooptimisation import CoOptimisationSettings
@@ -17,7 +18,6 @@ from rigid.learning.ppo import (
     PPOSettings,
     Rollout,
     _loss,
-    _standardise,
     _trainable,
     critic_values,
     init_learner,
@@ -202,7 +202,7 @@ def test_what_was_seen_in_lost_episodes_does_not_move_anything():
 
 def test_advantages_are_standardised_over_sound_steps_alone():
     gain, weight = jnp.array([[1.0, 3.0], [0.0, 0.0]]), jnp.array([[1.0, 1.0], [0.0, 0.0]])
-    np.testing.assert_allclose(_standardise(gain, weight)[0], [-1, 1], rtol=1e-5)
+    np.testing.assert_allclose(standardised(gain, weight)[0], [-1, 1], rtol=1e-5)
 
 
 def test_episodes_that_were_lost_from_the_start_teach_nothing():

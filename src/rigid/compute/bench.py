@@ -31,7 +31,8 @@ from rigid.compute.group import GroupInputs, GroupPlan, run_group
 from rigid.compute.preparation import Subject, prepare, settings_for
 from rigid.compute.scoring import play_with
 from rigid.frontier.largest_jump import first_lambdas
-from rigid.learning.adversary import Adversary, group_actor, start_adversary, train_iteration
+from rigid.learning.adversary import Adversary, start_adversary, train_iteration
+from rigid.learning.group_play import group_actor
 from rigid.presets import PRESETS, Preset
 from rigid.tasks.itch_scratching.task import ItchScratching
 

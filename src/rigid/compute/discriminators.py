@@ -34,7 +34,7 @@ from rigid.compute.group import GroupInputs
 from rigid.compute.referee_files import load_panel
 from rigid.compute.scoring import KEPT_EPISODES
 from rigid.files import json_text, write_atomically
-from rigid.learning.adversary import phase_rng
+from rigid.learning.group_play import phase_rng
 from rigid.naturalness.measure import Measure
 from rigid.naturalness.noise import NOISE_LEVELS, movement, under_noise
 from rigid.naturalness.panel import rate

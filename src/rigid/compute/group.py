@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import jax
 import numpy as np
 
 from rigid.compute.checkpoint import load_tree, save_arrays, save_tree
@@ -25,10 +24,9 @@ from rigid.learning.adversary import (
     Adversary,
     AdversarySettings,
     Metrics,
-    Opponent,
-    start_adversary,
-    train_iteration,
 )
+from rigid.learning.group_play import Opponent
+from rigid.learning.searching import Search, search_for
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.native import save_policy
 from rigid.presets import Preset
@@ -76,6 +74,11 @@ class GroupInputs:
     directory: Path
 
 
+def search_of(inputs: GroupInputs, plan: GroupPlan) -> Search:
+    """How the group is trained."""
+    return search_for(inputs.task, inputs.opponent, inputs.settings, plan.lambdas, plan.entropy)
+
+
 def run_group(
     inputs: GroupInputs, plan: GroupPlan, *, advance: Callable[[int], None] = lambda _: None
 ) -> list[dict[str, Any]]:
@@ -90,9 +93,11 @@ def run_group(
         One entry of `frontier.json`'s points for each λ, in the order of the plan.
     """
     done = inputs.directory / "groups" / f"{plan.name}.json"
-    steps = inputs.preset.iterations * inputs.preset.episodes * inputs.task.horizon
+    preset = inputs.preset
+    blocks = search_of(inputs, plan).blocks
+    steps = blocks * preset.iterations * preset.episodes * inputs.task.horizon
     if done.exists():
-        advance(steps * len(plan.lambdas))
+        advance(steps)
         return _read_done(done, plan)
     group, history = train_group(inputs, plan, advance)
     policies = [adversary.learner.policy for adversary in group]
@@ -107,7 +112,8 @@ def run_group(
             "seed": plan.seed,
             "round": plan.round,
             "lambda": json_lambda(plan.lambdas[index]),
-            "env_steps": steps,
+            # Adversaries of one network share its steps.
+            "env_steps": steps // len(group) + (index < steps % len(group)),
             **convergence(history[index]),
             **point,
         })  # fmt: skip
@@ -147,35 +153,29 @@ def train_group(
     Returns:
         The adversaries, and what each iteration saw of each of them.
     """
-    keys = jax.random.split(jax.random.key(plan.entropy), len(plan.lambdas))
-    group = [
-        start_adversary(inputs.opponent, inputs.settings, lambda_, key)
-        for lambda_, key in zip(plan.lambdas, keys, strict=True)
-    ]
-    history: list[list[Row]] = [[] for _ in group]
+    search = search_of(inputs, plan)
+    state = search.start()
+    history: list[list[Row]] = [[] for _ in plan.lambdas]
     checkpoint = inputs.directory / "groups" / f"{plan.name}.safetensors"
-    per_iteration = len(group) * inputs.preset.episodes * inputs.task.horizon
+    per_iteration = search.blocks * inputs.preset.episodes * inputs.task.horizon
     if checkpoint.exists():
-        group = load_tree(checkpoint, group)
-        count = int(group[0].iteration)
+        state = load_tree(checkpoint, state)
+        count = search.iteration(state)
         history = [
-            _read_metrics(inputs, plan.member(i), count, checkpoint) for i in range(len(group))
+            _read_metrics(inputs, plan.member(i), count, checkpoint) for i in range(len(history))
         ]
         advance(per_iteration * count)
-    world = inputs.task.make_world(len(group) * inputs.preset.episodes)
-    for iteration in range(int(group[0].iteration), inputs.preset.iterations):
-        results = train_iteration(
-            inputs.task, world, group, inputs.opponent, inputs.settings, plan.entropy
-        )
-        group = [adversary for adversary, _ in results]
-        for rows, (_, metrics) in zip(history, results, strict=True):
-            rows.append(_metrics_row(iteration, metrics))
+    world = inputs.task.make_world(search.blocks * inputs.preset.episodes)
+    for iteration in range(search.iteration(state), inputs.preset.iterations):
+        state, metrics = search.iterate(world, state)
+        for rows, seen in zip(history, metrics, strict=True):
+            rows.append(_metrics_row(iteration, seen))
         advance(per_iteration)
         last = iteration + 1 == inputs.preset.iterations
         if last or (iteration + 1) % CHECKPOINT_EVERY == 0:
-            _save(inputs, plan, group, history)
-            save_tree(checkpoint, group)
-    return group, history
+            _save(inputs, plan, search.adversaries(state), history)
+            save_tree(checkpoint, state)
+    return search.adversaries(state), history
 
 
 def _save(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
@@ -11,7 +12,7 @@ import numpy as np
 from rigid.compute.budget import FIXED_SECONDS, TRAINING_SHARE
 from rigid.compute.clock import Clock
 from rigid.compute.discriminators import write_discriminators
-from rigid.compute.group import GroupInputs, GroupPlan, json_lambda, run_group
+from rigid.compute.group import GroupInputs, GroupPlan, json_lambda, run_group, search_of
 from rigid.compute.preparation import (
     Prepared,
     Subject,
@@ -143,9 +144,7 @@ def _measured(
     inputs = GroupInputs(
         prepared.task, prepared.opponent, prepared.ruler, preset, settings, opened.directory.path
     )
-    per_seed = len(lambdas) if lambdas is not None else sum(preset.per_round)
-    episodes = per_seed * len(opened.seeds) * preset.iterations * preset.episodes
-    steps = episodes * subject.task.horizon
+    steps = len(opened.seeds) * _steps_of_a_seed(inputs, lambdas)
     speed = TRAINING_SHARE * prepared.steps_per_second
     listener.begin(steps, FIXED_SECONDS + steps / speed)
     points: list[dict[str, Any]] = []
@@ -173,6 +172,15 @@ def _measured(
         **_costs(points, prepared, preset, subject.task.horizon),
         **clock.read(),
     }
+
+
+def _steps_of_a_seed(inputs: GroupInputs, lambdas: Sequence[float] | None) -> int:
+    """Environment steps of training."""
+    preset, horizon = inputs.preset, inputs.task.horizon
+    if lambdas is None:
+        return replace(preset, seeds=preset.seeds[:1]).env_steps(horizon)
+    blocks = search_of(inputs, GroupPlan(0, 1, tuple(lambdas))).blocks
+    return blocks * preset.iterations * preset.episodes * horizon
 
 
 def _search(

@@ -24,7 +24,8 @@ from rigid.compute.scoring import (
 from rigid.data.episodes import CanonicalEpisodes, data_hash, load_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
-from rigid.learning.adversary import AdversarySettings, Opponent, phase_rng
+from rigid.learning.adversary import ALONE, SHARED, AdversarySettings
+from rigid.learning.group_play import Opponent, phase_rng
 from rigid.learning.rollout import policy_actor
 from rigid.naturalness.choice import DEFAULT_MEASURE, check_measure
 from rigid.naturalness.features import DEFAULT, Features, choose_features, seen_through
@@ -278,7 +279,8 @@ def settings_for(
         raise UserError(f"memory is {memory}, but an adversary sees at least 1 observation")
     return AdversarySettings(
         iterations=preset.iterations, episodes=preset.episodes, memory=memory,
-        measure=check_measure(search_measure),
+        measure=check_measure(search_measure), sharing=preset.sharing,
+        ppo=ALONE if preset.sharing is None else SHARED,
     )  # fmt: skip
 
 

@@ -11,14 +11,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from rigid.compute.endings import Ended, ended, measure
-from rigid.learning.adversary import (
-    Adversary,
-    AdversarySettings,
-    Opponent,
-    group_actor,
-    own_scores,
-    phase_rng,
-)
+from rigid.learning.adversary import Adversary, AdversarySettings, own_scores
+from rigid.learning.group_play import Opponent, group_actor, phase_rng
 from rigid.learning.rollout import Actor, Trajectories, play, policy_actor
 from rigid.naturalness.panel import AXIS, Fold, Panel, naturalness, rate, train_panels
 from rigid.naturalness.referee import RefereeSettings

@@ -31,7 +31,7 @@ from rigid.compute.resting import (
 )
 from rigid.data.recording import record
 from rigid.errors import UserError
-from rigid.learning.adversary import Opponent
+from rigid.learning.group_play import Opponent
 from rigid.naturalness.lsgan import DiscriminatorSettings
 from rigid.naturalness.referee import (
     HEADLINE_KAPPA,

@@ -23,7 +23,7 @@ from rigid.compute.resting import (
     play_rested,
 )
 from rigid.compute.verification import Advance
-from rigid.learning.adversary import Opponent
+from rigid.learning.group_play import Opponent
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import Trajectories
 from rigid.naturalness.kl import log_ratio

@@ -12,8 +12,8 @@ learns on its own rows.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -22,22 +22,29 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int, PRNGKeyArray, Shaped
 
+from rigid.learning.conditioned import CODE_SIZE, Sharing
+from rigid.learning.group_play import (
+    Experience,
+    Opponent,
+    Played,
+    canonical_motion,
+    phase_rng,
+    play_group,
+)
 from rigid.learning.ppo import Learner, PPOSettings, Rollout, ppo_update, start_learner
-from rigid.learning.rollout import play, policy_actor
 from rigid.naturalness.choice import DEFAULT_MEASURE, measure_named
 from rigid.naturalness.lsgan import DiscriminatorSettings
 from rigid.naturalness.measure import Health, Measure, Motion, unknown
 from rigid.naturalness.standardise import canonical_scale, standardise
-from rigid.policies.gaussian import (
-    GaussianParameters,
-    group_mean_action,
-    history_windows,
-    stack_history,
-    with_memory,
-)
-from rigid.policies.networks import init_mlp
-from rigid.policies.protocol import Policy
+from rigid.naturalness.told import Told
+from rigid.policies.gaussian import GaussianParameters, with_memory
+from rigid.policies.networks import MLP, init_mlp
 from rigid.tasks.protocol import Task, World
+
+ALONE = PPOSettings(learning_rate=5e-4, minibatch=1200, update_normaliser=False, signal_floor=0.3)
+"""Of an adversary with a network of its own. Ours: the paper does not give them."""
+SHARED = replace(ALONE, learning_rate=1.5e-3, signal_floor=0.0)
+"""Of a network that serves many λ; its minibatches are a share of an iteration. Ours."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,33 +67,20 @@ class AdversarySettings:
     canonical start finds natural failures that random weights miss (`benchmarks/planted`, λ about
     .2); sabotage it finds a little less harmful (itch scratching, λ = .05 to .2: .73 to .75, from
     random weights .75 to 1). Ours."""
-    ppo: PPOSettings = field(
-        default_factory=lambda: PPOSettings(
-            learning_rate=5e-4, minibatch=1200, update_normaliser=False, signal_floor=0.3
-        )
-    )
-    """The paper does not give the adversary's PPO settings. Ours."""
+    sharing: Sharing | None = None
+    """How many λ share a network; None: a network for each λ (the paper)."""
+    ppo: PPOSettings = ALONE
     discriminator: DiscriminatorSettings = field(default_factory=DiscriminatorSettings)
 
     @property
     def search_measure(self) -> Measure:
-        """The measure that `measure` names."""
+        """The measure that `measure` names, told whom it judges where adversaries share it."""
+        return self.shared_measure if self.sharing is None else Told(self.shared_measure, CODE_SIZE)
+
+    @property
+    def shared_measure(self) -> Measure:
+        """The measure that `measure` names, on features that hold a code where there is one."""
         return measure_named(self.measure, self.discriminator, self.penalty)
-
-
-class Opponent(NamedTuple):
-    """What stays frozen while adversaries train."""
-
-    robot: Policy
-    human: GaussianParameters
-    """The synthetic human: start, architecture, observation scale and action noise."""
-    canonical: Float[np.ndarray, "E T f"]
-    """Features of the search's canonical episodes."""
-    canonical_seeds: Int[np.ndarray, " E"]
-    """Starts of those episodes. Adversaries train from the same ones, so that the discriminator
-    cannot mistake a chance imbalance of a few dozen starts for a way of moving. Ours."""
-    reward_std: float
-    """Per-step standard deviation of canonical reward, σ_R."""
 
 
 class Adversary(NamedTuple):
@@ -101,19 +95,6 @@ class Adversary(NamedTuple):
     iteration: Int[Array, ""]
 
 
-class Experience(NamedTuple):
-    """The episodes of one adversary in one iteration."""
-
-    observation: Float[Array, "T N o"]
-    action: Float[Array, "T N a"]
-    reward: Float[Array, "T N"]
-    """In units of σ_R."""
-    weight: Float[Array, "T N"]
-    """1, or 0 from the step on at which physics ran away."""
-    features: Float[Array, "T N f"]
-    """Standardised."""
-
-
 class Metrics(NamedTuple):
     """What one iteration saw."""
 
@@ -126,28 +107,17 @@ class Metrics(NamedTuple):
     health: Health
 
 
-_PHASES = ("train", "referee", "score", "canonical", "discriminators")
-
-
-def phase_rng(seed: int, phase: str, number: int = 0) -> np.random.Generator:
-    """The generator of one phase of a group's work; phases and iterations never share numbers."""
-    return np.random.default_rng([seed, _PHASES.index(phase), number])
-
-
 def start_adversary(
     opponent: Opponent, settings: AdversarySettings, lambda_: float, key: PRNGKeyArray
 ) -> Adversary:
     """A fresh adversary and its measure, before any step."""
-    policy_key, critic_key, measure_key = jax.random.split(key, 3)
+    network_key, measure_key = jax.random.split(key)
     canonical, measure = canonical_motion(opponent), settings.search_measure
-    human = with_memory(opponent.human, settings.memory)
-    sizes = [human.network[0]["w"].shape[0], *(layer["w"].shape[1] for layer in human.network)]
-    state = measure.start(measure_key, canonical, human)
-    if lambda_ < settings.natural_start:
-        human = human._replace(network=init_mlp(policy_key, sizes, last_scale=0.01))
-    critic = init_mlp(critic_key, (sizes[0] + 1, *sizes[1:-1], 1), last_scale=0.01)
+    natural = lambda_ >= settings.natural_start
+    policy, critic = first_networks(opponent, settings, network_key, natural=natural)
+    state = measure.start(measure_key, canonical, with_memory(opponent.human, settings.memory))
     return Adversary(
-        start_learner(settings.ppo, human, critic, human.normaliser),
+        start_learner(settings.ppo, policy, critic, policy.normaliser),
         state,
         measure.unit(state, canonical),
         jnp.asarray(lambda_, jnp.float32),
@@ -155,11 +125,16 @@ def start_adversary(
     )
 
 
-def canonical_motion(opponent: Opponent) -> Float[Array, "E T f"]:
-    """The search's canonical episodes, standardised."""
-    scale = canonical_scale(opponent.canonical)
-    rows = standardise(scale, opponent.canonical.reshape(-1, scale.mean.size))
-    return jnp.asarray(rows.reshape(opponent.canonical.shape))
+def first_networks(
+    opponent: Opponent, settings: AdversarySettings, key: PRNGKeyArray, *, natural: bool
+) -> tuple[GaussianParameters, MLP]:
+    """Policy and critic before any step: the policy is the synthetic human, or random."""
+    policy_key, critic_key = jax.random.split(key)
+    human = with_memory(opponent.human, settings.memory)
+    sizes = [human.network[0]["w"].shape[0], *(layer["w"].shape[1] for layer in human.network)]
+    if not natural:
+        human = human._replace(network=init_mlp(policy_key, sizes, last_scale=0.01))
+    return human, init_mlp(critic_key, (sizes[0] + 1, *sizes[1:-1], 1), last_scale=0.01)
 
 
 def own_scores(
@@ -177,33 +152,6 @@ def own_scores(
     return None if scores is None else np.asarray(scores).T
 
 
-def group_actor(
-    policies: Sequence[GaussianParameters], rng: np.random.Generator
-) -> Callable[[Float[np.ndarray, "GN o"]], Float[np.ndarray, "GN a"]]:
-    """Acts for G adversaries at once; their worlds follow one another in G equal blocks.
-
-    For one set of episodes: an adversary with memory carries what it saw from step to step.
-    """
-    stacked: GaussianParameters = jax.tree.map(lambda *leaves: jnp.stack(leaves), *policies)
-    std = np.exp(np.asarray(stacked.log_std))[:, None]
-    width = policies[0].normaliser.mean.size
-    past: np.ndarray | None = None
-
-    def act(observation: np.ndarray) -> np.ndarray:
-        nonlocal past
-        rows, size = observation.shape
-        if past is None:
-            past = np.full((rows, width - size), np.nan, np.float32)
-        window = stack_history(observation, past)
-        past = window[:, : width - size]
-        grouped = window.reshape(len(policies), -1, width)
-        mean = np.asarray(group_mean_action(stacked, grouped))
-        noise = rng.standard_normal(mean.shape, dtype=np.float32)
-        return np.asarray(mean + std * noise).reshape(-1, mean.shape[-1])
-
-    return act
-
-
 def train_iteration(
     task: Task,
     world: World,
@@ -218,39 +166,19 @@ def train_iteration(
     goes on as if it had never stopped.
     """
     iteration = int(group[0].iteration)
-    rng = phase_rng(seed, "train", iteration)
-    starts = np.resize(rng.permutation(opponent.canonical_seeds), settings.episodes)
     policies = [adversary.learner.policy for adversary in group]
-    episodes = play(
-        task,
-        world,
-        np.tile(starts, len(group)),
-        policy_actor(opponent.robot, len(group) * settings.episodes, None),
-        group_actor(policies, rng),
-    )
+    rng = phase_rng(seed, "train", iteration)
+    played = play_group(task, world, policies, opponent, settings.episodes, settings.memory, rng)
     canonical = canonical_motion(opponent)
-    features = standardise(canonical_scale(opponent.canonical), episodes.features)
-    seen = history_windows(episodes.human_observation, settings.memory)
     key = jax.random.fold_in(jax.random.key(seed), iteration)
     results = []
     for index, adversary in enumerate(group):
         mine = slice(index * settings.episodes, (index + 1) * settings.episodes)
-        own = (
-            seen,
-            episodes.human_action,
-            episodes.reward / opponent.reward_std,
-            episodes.weight,
-            features,
-        )
-        experience = Experience(*(jnp.asarray(rows[:, mine]) for rows in own))
+        experience = Experience(*(rows[:, mine] for rows in played.experience))
         updated, metrics = _update(
             adversary, experience, canonical, jax.random.fold_in(key, index), settings=settings
         )
-        observed = metrics._replace(
-            mean_return=episodes.returns[mine].mean(),
-            success=np.mean(episodes.summary.success[mine]),
-        )
-        results.append((updated, observed))
+        results.append((updated, seen_by_task(metrics, played, mine)))
     return results
 
 
@@ -268,16 +196,8 @@ def _update(
     motion, policy = Motion(features, weight, observation, action), adversary.learner.policy
     penalty = measure.penalty(adversary.measure, canonical, motion, policy)
     scores = measure.score(adversary.measure, features)
-    rollout = Rollout(
-        observation=observation,
-        critic_observation=observation,
-        action=action,
-        reward=weight * shaped_reward(
-            adversary.lambda_, reward, penalty / adversary.penalty_std
-        ),
-        weight=weight,
-        expert_action=jnp.zeros_like(action),
-    )  # fmt: skip
+    shaped = shaped_reward(adversary.lambda_, reward, penalty / adversary.penalty_std)
+    rollout = rollout_of(observation, action, shaped, weight)
     pace = pace_at(adversary.iteration, settings.iterations)
     learner, losses = ppo_update(adversary.learner, rollout, keys[0], settings.ppo, pace)
     state, health = measure.update(
@@ -286,8 +206,8 @@ def _update(
     metrics = Metrics(
         mean_return=jnp.zeros(()),
         success=jnp.zeros(()),
-        penalty=_mean(penalty, weight),
-        naturalness_own=unknown() if scores is None else _mean(scores < 0, weight),
+        penalty=mean_of_sound(penalty, weight),
+        naturalness_own=unknown() if scores is None else mean_of_sound(scores < 0, weight),
         entropy=losses.entropy,
         health=health,
     )
@@ -297,8 +217,33 @@ def _update(
     return after, metrics
 
 
-def _mean(x: Shaped[Array, "T N"], weight: Float[Array, "T N"]) -> Float[Array, ""]:
+def seen_by_task(metrics: Metrics, played: Played, mine: slice) -> Metrics:
+    """The metrics of a block of episodes with what the task says of them."""
+    return metrics._replace(
+        mean_return=played.returns[mine].mean(), success=np.mean(played.success[mine])
+    )
+
+
+def mean_of_sound(x: Shaped[Array, "T N"], weight: Float[Array, "T N"]) -> Float[Array, ""]:
+    """Mean over the steps that count."""
     return (x * weight).sum() / jnp.maximum(weight.sum(), 1.0)
+
+
+def rollout_of(
+    observation: Float[Array, "T N o"],
+    action: Float[Array, "T N a"],
+    reward: Float[Array, "T N"],
+    weight: Float[Array, "T N"],
+) -> Rollout:
+    """What PPO learns from: the critic sees what the policy sees, and nobody is imitated."""
+    return Rollout(
+        observation=observation,
+        critic_observation=observation,
+        action=action,
+        reward=weight * reward,
+        weight=weight,
+        expert_action=jnp.zeros_like(action),
+    )
 
 
 def pace_at(iteration: Int[Array, ""] | float, iterations: int) -> Float[Array, ""]:
@@ -312,7 +257,7 @@ def pace_at(iteration: Int[Array, ""] | float, iterations: int) -> Float[Array, 
 
 
 def shaped_reward(
-    lambda_: Float[Array, ""], reward: Float[Array, "T N"], penalty: Float[Array, "T N"]
+    lambda_: Float[Array, "*step"], reward: Float[Array, "T N"], penalty: Float[Array, "T N"]
 ) -> Float[Array, "T N"]:
     """What the adversary maximises per step; both streams in their own frozen unit.
 

@@ -18,6 +18,7 @@ import jax.numpy as jnp
 import optax
 from jaxtyping import Array, Float, PRNGKeyArray
 
+from rigid.learning.advantages import advantages, signal_share, standardised
 from rigid.policies.gaussian import GaussianParameters, init_gaussian, log_density, mean_action
 from rigid.policies.networks import (
     MLP,
@@ -148,39 +149,6 @@ def _trainable(policy: GaussianParameters, critic: MLP) -> _Trainable:
     return {"network": policy.network, "log_std": policy.log_std, "critic": critic}
 
 
-def advantages(
-    reward: Float[Array, "T N"],
-    value: Float[Array, "T N"],
-    *,
-    gamma: float,
-    gae_lambda: float,
-    weight: Float[Array, "T N"] | None = None,
-) -> Float[Array, "T N"]:
-    """Generalised advantage estimates; the value after the last step is 0.
-
-    δₜ = rₜ + γ V(sₜ₊₁) - V(sₜ),  Aₜ = Σₖ (γλ)ᵏ δₜ₊ₖ   (Schulman et al., 2016, Eq. 16)
-
-    Args:
-        reward: rₜ.
-        value: V(sₜ).
-        gamma: Discount γ.
-        gae_lambda: λ; 0 trusts the critic, 1 the returns.
-        weight: 0 from the step on at which physics ran away, where δ is 0: the value of the last
-            sound state stands for the rest of the episode.
-    """
-    next_value = jnp.concatenate([value[1:], jnp.zeros_like(value[:1])])
-    delta = reward + gamma * next_value - value
-    if weight is not None:
-        delta = jnp.where(weight > 0, delta, 0.0)
-
-    def back(carry: Array, step: Array) -> tuple[Array, Array]:
-        total = step + gamma * gae_lambda * carry
-        return total, total
-
-    _, result = jax.lax.scan(back, jnp.zeros_like(delta[0]), delta, reverse=True)
-    return result
-
-
 def critic_values(learner: Learner, observation: Float[Array, "T N c"]) -> Float[Array, "T N"]:
     """The critic's estimate at every step, given the share of the episode that is left."""
     return apply_mlp(learner.critic, _with_time(learner.critic_normaliser, observation))[..., 0]
@@ -201,8 +169,9 @@ def ppo_update(
     key: PRNGKeyArray,
     settings: PPOSettings,
     pace: Float[Array, ""] | float = 1.0,
+    blocks: int = 1,
 ) -> tuple[Learner, Losses]:
-    """One iteration of PPO on one rollout; `settings` must be static under `jit`.
+    """One iteration of PPO on one rollout; `settings` and `blocks` must be static under `jit`.
 
     Args:
         learner: Policy, critic and optimiser before the iteration.
@@ -210,6 +179,8 @@ def ppo_update(
         key: Consumed.
         settings: Hyper-parameters.
         pace: Factor on the policy's learning rate, for schedules.
+        blocks: The N episodes are this many equal blocks of different aims, whose advantages are
+            standardised each on its own.
     """
     if settings.update_normaliser:
         # Moments of this rollout first serve the next one: the policy that acted is the old one.
@@ -225,6 +196,7 @@ def ppo_update(
         gae_lambda=settings.gae_lambda,
         weight=rollout.weight,
     )
+    share, strongest = signal_share(gain, rollout.weight, settings.signal_floor, blocks)
     mean = mean_action(learner.policy, rollout.observation)
     samples = {
         "observation": normalise(learner.policy.normaliser, rollout.observation),
@@ -232,29 +204,15 @@ def ppo_update(
         "action": rollout.action,
         "expert": rollout.expert_action,
         "log_density": log_density(mean, learner.policy.log_std, rollout.action),
-        "advantage": _standardise(gain, rollout.weight),
+        "advantage": share * standardised(gain, rollout.weight, blocks),
         "target": gain + value,
         "weight": rollout.weight,
     }
     count = rollout.reward.size
     flat = {name: x.reshape(count, *x.shape[2:]) for name, x in samples.items()}
-    if settings.signal_floor > 0:
-        signal = _deviation(gain, rollout.weight)
-        pace = pace * jnp.minimum(signal / settings.signal_floor, 1.0)
-    learner, losses = _epochs(learner, flat, key, settings, pace)
+    learner, losses = _epochs(learner, flat, key, settings, pace * strongest)
     policy = learner.policy._replace(normaliser=fresh)
     return learner._replace(policy=policy, critic_normaliser=fresh_critic), losses
-
-
-def _standardise(x: Float[Array, "T N"], weight: Float[Array, "T N"]) -> Float[Array, "T N"]:
-    mean = (x * weight).sum() / jnp.maximum(weight.sum(), 1.0)
-    return (x - mean) / _deviation(x, weight)
-
-
-def _deviation(x: Float[Array, "T N"], weight: Float[Array, "T N"]) -> Float[Array, ""]:
-    total = jnp.maximum(weight.sum(), 1.0)
-    mean = (x * weight).sum() / total
-    return jnp.sqrt(((x - mean) ** 2 * weight).sum() / total + 1e-8)
 
 
 def _epochs(

@@ -1,0 +1,146 @@
+"""Adversaries of one network: they find known optima for every λ at once, and are resumable."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import jax
+import numpy as np
+import pytest
+
+from rigid.compute.checkpoint import load_tree, save_tree
+from rigid.learning.adversary import AdversarySettings
+from rigid.learning.conditioned import Sharing
+from rigid.learning.group_play import Opponent, group_actor
+from rigid.learning.ppo import PPOSettings
+from rigid.learning.rollout import play, policy_actor
+from rigid.learning.shared import (
+    Range,
+    family_iteration,
+    members,
+    ranges_of,
+    start_family,
+)
+from rigid.naturalness.lsgan import DiscriminatorSettings
+from rigid.policies.gaussian import GaussianPolicy
+from rigid.policies.loading import load_policy
+from rigid.tasks.analytic.mean_shift import kl_shift
+from rigid.tasks.analytic.offset_catch import OffsetCatch
+from tests.learning.reach import bitwise_equal
+from tests.learning.test_adversary import HUMAN, INF
+from tests.learning.test_adversary import SETTINGS as ALONE
+from tests.learning.test_adversary import TASK as REACH
+from tests.toys import Follower
+
+CATCH = OffsetCatch()
+EPISODES = 1000
+SETTINGS = AdversarySettings(
+    iterations=60,
+    episodes=EPISODES,
+    sharing=Sharing(wild_slots=2, natural_slots=4, natural_from=0.5),
+    measure="kl",
+    ppo=PPOSettings(learning_rate=2e-2, update_normaliser=False, gae_lambda=1.0),
+    discriminator=DiscriminatorSettings(hidden=(16,), steps=10, minibatch=128),
+)
+FEW = Sharing(wild_slots=2, natural_slots=3)
+LAMBDAS = (0.5, 0.7, 1.0, 1.4, 2.0)
+
+
+def opponent_of(task, robot, human):
+    """Frozen players and 40 canonical episodes, rewards in raw units."""
+    rng = np.random.default_rng(0)
+    played = play(
+        task, task.make_world(40), np.arange(40), policy_actor(robot, 40, None),
+        policy_actor(GaussianPolicy(human), 40, rng),
+    )  # fmt: skip
+    return Opponent(robot, human, played.features.swapaxes(0, 1), np.arange(40), 1.0)
+
+
+@pytest.fixture(scope="module")
+def catch():
+    human = load_policy("builtin:synthetic-human", task=CATCH, agent="human")
+    robot = load_policy("builtin:catcher", task=CATCH, agent="robot")
+    return opponent_of(CATCH, robot, human.parameters)
+
+
+@pytest.fixture(scope="module")
+def reach():
+    return opponent_of(REACH, Follower(), HUMAN)
+
+
+def train(task, opponent, settings, lambdas, iterations, *, families=None, seed=0):
+    ranges = ranges_of(lambdas, settings.sharing)
+    families = families or [
+        start_family(opponent, settings, each, key)
+        for each, key in zip(ranges, jax.random.split(jax.random.key(seed), 2), strict=False)
+    ]
+    world = task.make_world(sum(each.slots for each in ranges) * settings.episodes)
+    seen = {}
+    for _ in range(iterations):
+        families, seen = family_iteration(task, world, families, ranges, opponent, settings, seed)
+    return families, ranges, seen
+
+
+@pytest.fixture(scope="module")
+def at_rest(catch):
+    return train(CATCH, catch, SETTINGS, LAMBDAS, SETTINGS.iterations)
+
+
+def offset_of(policy):
+    """Mean offset [canonical deviations] of 4,000 draws."""
+    act = group_actor([policy], np.random.default_rng(0))
+    return float(act(np.zeros((4000, 1), np.float32)).mean() * 8)
+
+
+def test_one_network_finds_the_optimum_of_every_lambda(at_rest):
+    """Under λ KL the canonical offset shifts by 1 / λ: fourfold over these λ."""
+    families, ranges, _ = at_rest
+    for lambda_, adversary in members(families, ranges).items():
+        assert lambda_ in LAMBDAS
+        assert offset_of(adversary.learner.policy) == pytest.approx(kl_shift(lambda_), rel=0.25)
+
+
+def test_each_lambda_reports_the_slot_that_played_it(at_rest):
+    """Returns are minus the offset, so that the harm falls as λ rises."""
+    returns = [at_rest[2][lambda_].mean_return for lambda_ in LAMBDAS]
+    assert returns == sorted(returns)
+
+
+def test_the_wild_family_starts_from_random_weights_and_the_natural_one_at_the_human(reach):
+    settings = replace(ALONE, sharing=FEW)
+    wild, natural = (
+        start_family(reach, settings, each, jax.random.key(0)).learner.policy
+        for each in ranges_of((0.0, INF), FEW)
+    )
+    np.testing.assert_array_equal(natural.network[0]["w"][:3], HUMAN.network[0]["w"])
+    assert np.abs(wild.network[0]["w"][:3] - HUMAN.network[0]["w"]).max() > 0.1
+
+
+def test_each_family_trains_beyond_the_lambdas_that_were_asked_for():
+    wild, natural = ranges_of((1.0, 0.0, 0.1, INF), FEW)
+    assert wild == Range((0.0, 0.1, FEW.wild_to), 2, natural=False)
+    assert natural == Range((FEW.natural_from, 1.0, INF), 3, natural=True)
+
+
+def test_no_family_is_made_where_no_lambda_belongs():
+    assert [each.natural for each in ranges_of((1.0, 2.0), FEW)] == [True]
+    assert [each.natural for each in ranges_of((0.0,), FEW)] == [False]
+
+
+@pytest.mark.parametrize("measure", ["lsgan", "kl", "mmd", "temporal", "ensemble"])
+def test_stopping_and_going_on_changes_nothing_under_any_measure(reach, measure, tmp_path):
+    settings = replace(ALONE, sharing=FEW, measure=measure, episodes=8)
+    lambdas = (0.0, 0.5, 2.0)
+    whole, *_ = train(REACH, reach, settings, lambdas, 2)
+    half, *_ = train(REACH, reach, settings, lambdas, 1)
+    save_tree(tmp_path / "half", half)
+    loaded = load_tree(tmp_path / "half", half)
+    resumed, *_ = train(REACH, reach, settings, lambdas, 1, families=loaded)
+    assert bitwise_equal(resumed, whole)
+
+
+def test_an_adversary_is_a_policy_without_a_code_that_remembers_as_settings_say(reach):
+    settings = replace(ALONE, sharing=FEW, memory=3, episodes=8)
+    families, ranges, _ = train(REACH, reach, settings, (0.0, 1.0, 2.0), 1)
+    for adversary in members(families, ranges).values():
+        assert adversary.learner.policy.network[0]["w"].shape[0] == 3 * REACH.human.observation_size
