@@ -14,7 +14,7 @@ from benchmarks.planted.people import HABITS, NOISE, Person, aim_of, fit_policy,
 from benchmarks.planted.robots import Follower, Path, Watcher
 from benchmarks.planted.weaknesses import Weakness, shown, weaknesses
 from rigid.data.recording import record
-from rigid.learning.adversary import Opponent
+from rigid.learning.group_play import Opponent
 from rigid.learning.rollout import Trajectories, play, policy_actor
 from rigid.naturalness.panel import AXIS, LEVELS, Fold, naturalness, train_panel
 from rigid.naturalness.referee import RefereeSettings

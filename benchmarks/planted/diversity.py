@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from benchmarks.planted.arena import Arena
-from rigid.learning.adversary import group_actor, phase_rng
+from rigid.learning.group_play import group_actor, phase_rng
 from rigid.learning.rollout import Trajectories, play, policy_actor
 from rigid.naturalness.kl import log_ratio
 from rigid.policies.gaussian import GaussianParameters, GaussianPolicy

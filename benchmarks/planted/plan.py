@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from benchmarks.planted.handover import HORIZON
+from rigid.learning.conditioned import Sharing
 
 METHODS = ("rigid", "clone", "diversity", "sabotage", "noise")
 """Ours first; decoys are only searched by it."""
@@ -20,10 +21,10 @@ class Plan:
     """Which of the ten."""
     methods: tuple[str, ...] = METHODS
     seeds: tuple[int, ...] = (0,)
-    rounds: tuple[int, ...] = (6, 2)
+    rounds: tuple[int, ...] = (8,)
     """λ of the first round and of each refinement."""
-    lambda_min: float = 0.01
-    lambda_max: float = 10.0
+    lambda_min: float = 0.05
+    lambda_max: float = 3.0
     iterations: int = 100
     """Of one adversary."""
     episodes: int = 100
@@ -33,6 +34,11 @@ class Plan:
     def humans(self) -> int:
         """Humans that every method ends with."""
         return sum(self.rounds)
+
+    @property
+    def sharing(self) -> Sharing:
+        """One network from the canonical human for all λ: every human here has to be natural."""
+        return Sharing(natural_start=0.0, natural_slots=self.humans, natural_from=self.lambda_min)
 
     @property
     def steps(self) -> int:
@@ -51,11 +57,11 @@ class Plan:
 
     def describe(self) -> dict[str, Any]:
         """As JSON."""
-        return asdict(self)
+        return {**asdict(self), "sharing": asdict(self.sharing)}
 
 
 PLAN = Plan(name="planted")
 QUICK = Plan(
     name="quick: shows that the road works, and nothing else",
-    weaknesses=(0, 8), rounds=(2, 1), iterations=3, episodes=40,
+    weaknesses=(0, 8), rounds=(3,), iterations=3, episodes=40,
 )  # fmt: skip

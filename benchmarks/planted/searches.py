@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import jax
 import numpy as np
 
 from benchmarks.planted.arena import Arena, judge, play_with
@@ -15,14 +14,10 @@ from benchmarks.planted.diversity import diversity
 from benchmarks.planted.people import fit_policy
 from benchmarks.planted.plan import Plan
 from rigid.frontier.search import next_round
-from rigid.learning.adversary import (
-    Adversary,
-    AdversarySettings,
-    Opponent,
-    start_adversary,
-    train_iteration,
-)
-from rigid.policies.gaussian import GaussianParameters, GaussianPolicy
+from rigid.learning.adversary import SHARED, AdversarySettings
+from rigid.learning.group_play import Opponent
+from rigid.learning.searching import search_for
+from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.protocol import Policy
 
 NOISES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
@@ -52,18 +47,19 @@ def search(method: str, arena: Arena, plan: Plan, seed: int) -> list[Policy]:
 
 
 def _rigid(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
-    """Algorithm 1: a discriminator holds adversaries close, λ is refined where it jumps."""
+    """A discriminator holds adversaries close; all λ share a network, as in preset `standard`."""
     return _refined(arena, arena.opponent, _settings(plan, "lsgan"), plan, seed)
 
 
 def _sabotage(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
-    """λ = 0, again and again."""
+    """λ = 0, again and again, each time with a network of its own."""
     lambdas = [SABOTAGE] * plan.humans
-    return _trained(arena, arena.opponent, _settings(plan, "lsgan"), lambdas, seed)
+    settings = AdversarySettings(iterations=plan.iterations, episodes=plan.episodes)
+    return _trained(arena, arena.opponent, settings, lambdas, seed)
 
 
 def _clone(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
-    """The penalty is the divergence from a clone of canonical episodes; λ is refined alike."""
+    """The penalty is the divergence from a clone of canonical episodes; all else is as in ours."""
     human = arena.opponent.human
     episodes = play_with(
         arena.task, arena.robot, GaussianPolicy(human), len(arena.opponent.canonical),
@@ -95,8 +91,11 @@ def _noise(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
 
 
 def _settings(plan: Plan, measure: str) -> AdversarySettings:
-    """The product's settings at this study's budget."""
-    return AdversarySettings(iterations=plan.iterations, episodes=plan.episodes, measure=measure)
+    """Those of preset `standard` at this study's budget."""
+    return AdversarySettings(
+        iterations=plan.iterations, episodes=plan.episodes, measure=measure,
+        sharing=plan.sharing, ppo=SHARED,
+    )  # fmt: skip
 
 
 def _refined(
@@ -126,14 +125,8 @@ def _trained(
     seed: int,
 ) -> list[Policy]:
     """One adversary for each λ, with the product's own training."""
-    keys = jax.random.split(jax.random.key(seed), len(lambdas))
-    group: list[Adversary] = [
-        start_adversary(opponent, settings, lambda_, key)
-        for lambda_, key in zip(lambdas, keys, strict=True)
-    ]
-    world = arena.task.make_world(len(group) * settings.episodes)
+    training = search_for(arena.task, opponent, settings, lambdas, seed)
+    world, state = arena.task.make_world(training.blocks * settings.episodes), training.start()
     for _ in range(settings.iterations):
-        results = train_iteration(arena.task, world, group, opponent, settings, seed)
-        group = [adversary for adversary, _ in results]
-    policies: list[GaussianParameters] = [adversary.learner.policy for adversary in group]
-    return [GaussianPolicy(policy) for policy in policies]
+        state, _ = training.iterate(world, state)
+    return [GaussianPolicy(adversary.learner.policy) for adversary in training.adversaries(state)]

@@ -65,7 +65,7 @@ def _beyond(
 
 
 def _drifted(path: Path) -> Bool[np.ndarray, " B"]:
-    """Moved 13 cm in 16 steps, as much in their second half as in the first, and never fast."""
+    """Moved 16 cm in 16 steps, as much in their second half as in the first, and never fast."""
     if path.shape[1] < 17:
         return np.zeros(len(path), dtype=bool)
     last = path[:, -17:]
@@ -74,24 +74,24 @@ def _drifted(path: Path) -> Bool[np.ndarray, " B"]:
     far = np.linalg.norm(net, axis=1)
     along = (second * net).sum(axis=1) / np.maximum(far, 1e-6)
     pieces = np.linalg.norm(last[:, 4:] - last[:, :-4], axis=2).max(axis=1)
-    return np.asarray((far > 0.13) & (along > 0.45 * far) & (pieces < 0.07))
+    return np.asarray((far > 0.16) & (along > 0.45 * far) & (pieces < 0.07))
 
 
 def _paused(path: Path) -> Bool[np.ndarray, " B"]:
-    """Stayed within 3 cm for seven steps, half-way."""
-    if path.shape[1] < 8:
+    """Stayed within 4 cm for seven steps, half-way, and has gone on within the next five."""
+    if path.shape[1] < 13:
         return np.zeros(len(path), dtype=bool)
-    last = path[:, -8:]
-    still = np.linalg.norm(last - last[:, :1], axis=2).max(axis=1) < 0.03
-    half_way = (last[..., 1] > 0.1) & (last[..., 1] < 0.2)
-    return np.asarray(still & half_way.all(axis=1))
+    rest = path[:, -13:-5]
+    still = np.linalg.norm(rest - rest[:, :1], axis=2).max(axis=1) < 0.04
+    half_way = (rest[..., 1] > 0.1) & (rest[..., 1] < 0.2)
+    return np.asarray(still & half_way.all(axis=1) & (path[:, -1, 1] > 0.22))
 
 
 def _changed_sides(path: Path) -> Bool[np.ndarray, " B"]:
-    """Was 15 cm to the left for four steps, beyond half-way, and is now 15 cm to the right."""
+    """Was 17 cm to the left for four steps, beyond half-way, and is now 17 cm to the right."""
     beyond = path[..., 1] > 0.3
-    was_left = ((path[..., 0] < -0.15) & beyond).sum(axis=1) >= 4
-    return np.asarray(was_left & (path[:, -1, 0] > 0.15) & beyond[:, -1])
+    was_left = ((path[..., 0] < -0.17) & beyond).sum(axis=1) >= 4
+    return np.asarray(was_left & (path[:, -1, 0] > 0.17) & beyond[:, -1])
 
 
 def _returned(path: Path) -> Bool[np.ndarray, " B"]:

@@ -38,12 +38,13 @@ def test_an_event_is_seen_in_its_share_of_fresh_canonical_episodes(planted, name
 
 @pytest.mark.parametrize("name", ["drift", "pause", "change of sides", "return"])
 def test_a_motion_outside_the_data_hardly_ever_occurs_in_it(planted, canonical, name):
-    assert shown(planted[name], canonical).mean() < 1e-3
+    """Fewer than 1 of 10,000 episodes would be 0.4 here; 3 or more has a chance of 1 %."""
+    assert shown(planted[name], canonical).sum() < 3
 
 
 @pytest.mark.parametrize("name", ["drift", "pause", "change of sides", "return"])
-def test_the_stated_human_shows_its_motion_in_nearly_half_of_its_episodes_or_more(planted, name):
-    assert shown(planted[name], paths(played(name, episodes=500))).mean() > 0.4
+def test_the_stated_human_shows_its_motion_in_half_of_its_episodes_or_more(planted, name):
+    assert shown(planted[name], paths(played(name, episodes=500))).mean() > 0.5
 
 
 def test_the_order_of_sides_matters(planted):
