@@ -118,8 +118,19 @@ def test_the_wild_family_starts_from_random_weights_and_the_natural_one_at_the_h
 
 def test_each_family_trains_beyond_the_lambdas_that_were_asked_for():
     wild, natural = ranges_of((1.0, 0.0, 0.1, INF), FEW)
-    assert wild == Range((0.0, 0.1, FEW.wild_to), 2, natural=False)
-    assert natural == Range((FEW.natural_from, 1.0, INF), 3, natural=True)
+    assert wild == Range((0.0, 0.1, FEW.wild_to), (0.0, 0.1), 2, natural=False)
+    assert natural == Range((FEW.natural_from, 1.0, INF), (1.0, INF), 3, natural=True)
+
+
+def test_a_lambda_that_both_families_train_at_is_served_by_the_one_it_belongs_to(reach):
+    """0.1 is wild, and the natural family trains at it for the sake of others."""
+    settings = replace(ALONE, sharing=FEW, episodes=8)
+    families, ranges, seen = train(REACH, reach, settings, (0.1, 1.0), 1)
+    found = members(families, ranges)
+    assert set(found) == set(seen) == {0.1, 1.0}
+    np.testing.assert_array_equal(
+        found[0.1].learner.policy.network[1]["w"], families[0].learner.policy.network[1]["w"]
+    )
 
 
 def test_no_family_is_made_where_no_lambda_belongs():

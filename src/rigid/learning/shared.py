@@ -73,6 +73,7 @@ class Range(NamedTuple):
 
     lambdas: tuple[float, ...]
     """Those that were asked for, and the one that it trains at for their sake."""
+    asked: tuple[float, ...]
     slots: int
     natural: bool
     """Whether it starts at the synthetic human."""
@@ -95,8 +96,8 @@ def ranges_of(lambdas: Sequence[float], sharing: Sharing) -> list[Range]:
     Example:
         >>> for each in ranges_of([3.0, 0.0], Sharing(wild_slots=2, natural_slots=3)):
         ...     print(each)
-        Range(lambdas=(0.0, 0.4), slots=2, natural=False)
-        Range(lambdas=(0.1, 3.0), slots=3, natural=True)
+        Range(lambdas=(0.0, 0.4), asked=(0.0,), slots=2, natural=False)
+        Range(lambdas=(0.1, 3.0), asked=(3.0,), slots=3, natural=True)
     """
     wild = {value for value in lambdas if value < sharing.natural_start}
     natural = set(lambdas) - wild
@@ -105,7 +106,7 @@ def ranges_of(lambdas: Sequence[float], sharing: Sharing) -> list[Range]:
         (natural, sharing.natural_from, sharing.natural_slots, True),
     )
     return [
-        Range(tuple(sorted(asked | {beyond})), slots, from_human)
+        Range(tuple(sorted(asked | {beyond})), tuple(sorted(asked)), slots, from_human)
         for asked, beyond, slots, from_human in families
         if asked
     ]
@@ -180,7 +181,8 @@ def family_iteration(
             settings=settings,
         )
         after.append(updated)
-        for number, lambda_ in enumerate(range_.lambdas):
+        for lambda_ in range_.asked:
+            number = range_.lambdas.index(lambda_)
             slot = slot_of(number, len(range_.lambdas), range_.slots)
             mine = slice((first + slot) * settings.episodes, (first + slot + 1) * settings.episodes)
             seen[lambda_] = seen_by_task(_of_slot(metrics, slot), played, mine)
@@ -265,7 +267,7 @@ def _by_slot(x: Array, weight: Float[Array, "T N"], slots: int) -> Float[Array, 
 
 
 def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[float, Adversary]:
-    """What the families are at each λ: adversaries whose policies are ordinary networks."""
+    """What the families are at each λ that was asked for: their policies are ordinary networks."""
     return {
         lambda_: Adversary(
             family.learner._replace(policy=at_code(family.learner.policy, code)),
@@ -276,4 +278,5 @@ def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[floa
         )
         for family, range_ in zip(families, ranges, strict=True)
         for lambda_, code in zip(range_.lambdas, jnp.asarray(range_.codes()), strict=True)
+        if lambda_ in range_.asked
     }
