@@ -75,10 +75,12 @@ def test_bad_input_is_a_users_error_and_writes_nothing(tmp_path, options, messag
     assert not (tmp_path / "run").exists()
 
 
+def test_presets_train_for_as_many_steps_as_the_documents_say():
+    steps = {name: preset.env_steps(100) for name, preset in PRESETS.items()}
+    assert steps == {"demo": 1_152_000, "standard": 4_608_000, "paper": 31_104_000}
+
+
 def test_presets_describe_themselves_as_json():
     for name, preset in PRESETS.items():
         described = json.loads(json.dumps(preset.describe()))
         assert described["name"] == name
-        groups = len(preset.seeds) * len(preset.per_round)
-        blocks = groups * preset.sharing.slots if preset.sharing else preset.adversaries
-        assert preset.env_steps(100) == 100 * blocks * preset.iterations * preset.episodes

@@ -96,7 +96,6 @@ def _account(plan: Plan, robots: Sequence[Robot], rows: Sequence[Mapping[str, An
         missed=_missed(robots), half=f"{HALF:g}", margin=MARGIN,
         steps=f"{plan.steps:,}", humans=plan.humans, seeds=", ".join(map(str, plan.seeds)),
         iterations=plan.iterations, episodes=plan.episodes,
-        rounds=" + ".join(map(str, plan.rounds)),
         lambda_min=plan.lambda_min, lambda_max=plan.lambda_max,
     )  # fmt: skip
 

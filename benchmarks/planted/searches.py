@@ -9,11 +9,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from benchmarks.planted.arena import Arena, judge, play_with
+from benchmarks.planted.arena import Arena, play_with
 from benchmarks.planted.diversity import diversity
 from benchmarks.planted.people import fit_policy
 from benchmarks.planted.plan import Plan
-from rigid.frontier.search import next_round
+from rigid.frontier.largest_jump import first_lambdas
 from rigid.learning.adversary import SHARED, AdversarySettings
 from rigid.learning.group_play import Opponent
 from rigid.learning.searching import search_for
@@ -24,7 +24,6 @@ NOISES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
 """Action noise of the Gaussian rival, in multiples of the canonical one. Ours."""
 SABOTAGE = 0.0
 """λ of an adversary that nothing holds close."""
-_SELECTION = 500  # Added to a seed: episodes that choose λ are never those that score.
 
 
 def search(method: str, arena: Arena, plan: Plan, seed: int) -> list[Policy]:
@@ -48,7 +47,7 @@ def search(method: str, arena: Arena, plan: Plan, seed: int) -> list[Policy]:
 
 def _rigid(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
     """A discriminator holds adversaries close; all λ share a network, as in preset `standard`."""
-    return _refined(arena, arena.opponent, _settings(plan, "lsgan"), plan, seed)
+    return _searched(arena, arena.opponent, _settings(plan, "lsgan"), plan, seed)
 
 
 def _sabotage(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
@@ -72,7 +71,7 @@ def _clone(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
     std = float(np.exp(np.asarray(human.log_std)).mean())
     copied = fit_policy(seen, done, std=std, seed=seed).parameters
     opponent = arena.opponent._replace(human=copied)
-    return _refined(arena, opponent, _settings(plan, "kl"), plan, seed)
+    return _searched(arena, opponent, _settings(plan, "kl"), plan, seed)
 
 
 def _diversity(arena: Arena, plan: Plan, seed: int) -> list[Policy]:
@@ -98,23 +97,11 @@ def _settings(plan: Plan, measure: str) -> AdversarySettings:
     )  # fmt: skip
 
 
-def _refined(
+def _searched(
     arena: Arena, opponent: Opponent, settings: AdversarySettings, plan: Plan, seed: int
 ) -> list[Policy]:
-    trained: list[list[float]] = []
-    naturalness: list[list[float]] = []
-    humans: list[Policy] = []
-    while True:
-        lambdas = next_round(
-            trained, naturalness, per_round=plan.rounds,
-            lambda_min=plan.lambda_min, lambda_max=plan.lambda_max,
-        )  # fmt: skip
-        if lambdas is None:
-            return humans
-        group = _trained(arena, opponent, settings, lambdas, seed + 1000 * len(trained))
-        trained.append(lambdas)
-        naturalness.append([one.naturalness for one in judge(arena, group, seed + _SELECTION)])
-        humans += group
+    lambdas = first_lambdas(plan.lambda_min, plan.lambda_max, plan.humans)
+    return _trained(arena, opponent, settings, lambdas, seed)
 
 
 def _trained(

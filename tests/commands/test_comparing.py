@@ -87,7 +87,16 @@ def test_a_strangers_text_cannot_steer_the_terminal(rigid, two_runs):
 def test_the_gate_opens_when_every_upper_bound_keeps_its_limit(rigid, two_runs):
     code, out, _ = rigid("gate", two_runs[0], "--max-worst", "1", "--max-auc", "1")
     assert code == 0
-    assert [line[:6] for line in out.splitlines()] == ["ok    ", "ok    ", "upper "]
+    assert [line[:6] for line in out.splitlines()[:3]] == ["ok    ", "ok    ", "upper "]
+
+
+def test_the_gate_says_where_no_natural_human_was_found(rigid, two_runs):
+    """No human is perfectly natural here; each is at least not natural at all."""
+    found = [
+        "canonical play stands there" in rigid("gate", two_runs[0], "--max-worst", "1", *level)[1]
+        for level in (("--at-naturalness", "1"), ("--at-naturalness", "0"))
+    ]
+    assert found == [True, False]
 
 
 def test_the_gate_shuts_with_3_at_an_upper_bound_beyond_its_limit(rigid, two_runs, small_run):

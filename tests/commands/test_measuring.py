@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -69,6 +70,17 @@ def test_the_headline_has_no_interval_from_one_seed_and_shows_the_stamp(small_ru
     assert "[one seed: no interval]" in text
     assert "6 adversaries, 1 seed; " in text
     assert "\n  demo: not for publication\n" in text
+
+
+def test_the_headline_says_where_canonical_play_stands_for_humans_that_were_not_found(small_run):
+    far = [{**point, "naturalness": 0.2} for point in small_run.points]
+    near = [{**far[0], "naturalness": 0.93}, *far[1:]]
+    texts = [
+        headline(replace(small_run, data={**small_run.data, "points": points}), Path("r"))
+        for points in (far, near)
+    ]
+    assert "0 of 2 seeds found a human at naturalness ≥ 0.9; in the others canonical" in texts[0]
+    assert "1 of 2 seeds found a human at naturalness ≥ 0.9" in texts[1]
 
 
 def test_other_settings_exit_with_2_and_the_first_difference(frontier, small_run):

@@ -40,6 +40,17 @@ def test_a_result_offers_its_headline(tmp_path):
     assert frontier.points == [POINT]
 
 
+def test_it_counts_the_seeds_that_found_a_human_of_a_naturalness(tmp_path):
+    def point(seed, naturalness, faults=0):
+        return {**POINT, "seed": seed, "naturalness": naturalness, "faults": faults}
+
+    points = [point(0, 0.95), point(0, 0.99), point(1, 0.89), point(2, 0.9), point(3, 1.0, 200)]
+    seeds = {str(seed): 0.5 for seed in range(4)}
+    frontier = stored(tmp_path, {**DATA, "points": points, "auc_by_seed": seeds})
+    assert frontier.seeds_at(0.9) == (2, 4)
+    assert frontier.seeds_at(0.8) == (3, 4)
+
+
 def test_one_seed_has_no_interval(tmp_path):
     assert stored(tmp_path, {**DATA, "auc_interval": None}).auc_interval is None
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
 from rigid.compute.checkpoint import load_tree, save_tree
 from rigid.learning.adversary import AdversarySettings
 from rigid.learning.conditioned import Sharing
-from rigid.learning.group_play import Opponent, group_actor
+from rigid.learning.group_play import Opponent
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import play, policy_actor
 from rigid.learning.shared import (
@@ -22,9 +23,10 @@ from rigid.learning.shared import (
     start_family,
 )
 from rigid.naturalness.lsgan import DiscriminatorSettings
-from rigid.policies.gaussian import GaussianPolicy
+from rigid.policies.gaussian import GaussianPolicy, mean_action
 from rigid.policies.loading import load_policy
 from rigid.tasks.analytic.mean_shift import kl_shift
+from rigid.tasks.analytic.offset_catch import REACH as REACH_OF_CATCH
 from rigid.tasks.analytic.offset_catch import OffsetCatch
 from tests.learning.reach import bitwise_equal
 from tests.learning.test_adversary import HUMAN, INF
@@ -37,9 +39,9 @@ EPISODES = 1000
 SETTINGS = AdversarySettings(
     iterations=60,
     episodes=EPISODES,
-    sharing=Sharing(wild_slots=2, natural_slots=4, natural_from=0.5),
+    sharing=Sharing(wild_slots=2, natural_slots=8, natural_from=0.5),
     measure="kl",
-    ppo=PPOSettings(learning_rate=2e-2, update_normaliser=False, gae_lambda=1.0),
+    ppo=PPOSettings(learning_rate=4e-3, update_normaliser=False, gae_lambda=1.0),
     discriminator=DiscriminatorSettings(hidden=(16,), steps=10, minibatch=128),
 )
 FEW = Sharing(wild_slots=2, natural_slots=3)
@@ -83,26 +85,31 @@ def train(task, opponent, settings, lambdas, iterations, *, families=None, seed=
 
 @pytest.fixture(scope="module")
 def at_rest(catch):
-    return train(CATCH, catch, SETTINGS, LAMBDAS, SETTINGS.iterations)
+    """What the last iteration saw, and mean offsets over the last third of them."""
+    early = SETTINGS.iterations * 2 // 3
+    families, ranges, seen = train(CATCH, catch, SETTINGS, LAMBDAS, early)
+    offsets = []
+    for _ in range(SETTINGS.iterations - early):
+        families, _, seen = train(CATCH, catch, SETTINGS, LAMBDAS, 1, families=families)
+        found = members(families, ranges)
+        offsets.append([offset_of(found[lambda_].learner.policy) for lambda_ in LAMBDAS])
+    return seen, np.mean(offsets, axis=0)
 
 
 def offset_of(policy):
-    """Mean offset [canonical deviations] of 4,000 draws."""
-    act = group_actor([policy], np.random.default_rng(0))
-    return float(act(np.zeros((4000, 1), np.float32)).mean() * 8)
+    """Mean offset [canonical deviations]."""
+    return float(mean_action(policy, jnp.zeros((1, 1)))[0, 0]) * REACH_OF_CATCH
 
 
 def test_one_network_finds_the_optimum_of_every_lambda(at_rest):
     """Under λ KL the canonical offset shifts by 1 / λ: fourfold over these λ."""
-    families, ranges, _ = at_rest
-    for lambda_, adversary in members(families, ranges).items():
-        assert lambda_ in LAMBDAS
-        assert offset_of(adversary.learner.policy) == pytest.approx(kl_shift(lambda_), rel=0.25)
+    exact = [kl_shift(lambda_) for lambda_ in LAMBDAS]
+    np.testing.assert_allclose(at_rest[1], exact, rtol=0.1)
 
 
 def test_each_lambda_reports_the_slot_that_played_it(at_rest):
     """Returns are minus the offset, so that the harm falls as λ rises."""
-    returns = [at_rest[2][lambda_].mean_return for lambda_ in LAMBDAS]
+    returns = [at_rest[0][lambda_].mean_return for lambda_ in LAMBDAS]
     assert returns == sorted(returns)
 
 

@@ -34,7 +34,9 @@ LIGHT = DiscriminatorSettings(
 
 def rows(values, per_episode=1):
     own = jnp.arange(len(values)) // per_episode
-    return Rows(jnp.asarray(values, jnp.float32), jnp.ones(len(values)), own)
+    return Rows(
+        jnp.asarray(values, jnp.float32), jnp.ones(len(values)), own, jnp.zeros((len(values), 0))
+    )
 
 
 def motion(features, weight=None):

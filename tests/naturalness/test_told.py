@@ -71,9 +71,26 @@ def test_what_is_kept_scores_as_the_state_does(trained):
     np.testing.assert_array_equal(told.score_kept(kept, seen), told.score(asked, seen))
 
 
+def test_mmd_holds_rows_of_one_code_against_no_others():
+    """An adversary pays for its own distance, whatever those of other codes do."""
+    inner = measure_named("mmd", SETTINGS, "amp", code_size=2)
+    natural = jnp.concatenate([with_code(CANONICAL, code) for code in CODES])
+    still = jnp.swapaxes(CANONICAL, 0, 1)[::-1]
+
+    def paid(shift):
+        both = [with_code(still, CODES[0]), with_code(still + shift, CODES[1])]
+        state = inner.start(jax.random.key(0), with_code(CANONICAL, CODES[0]), HUMAN)
+        found = inner.penalty(state, natural, motion(jnp.concatenate(both, axis=1)), HUMAN)
+        return found[:, :6], found[:, 6:]
+
+    (mine, _), (mine_too, strange) = paid(0.0), paid(3.0)
+    np.testing.assert_allclose(mine, mine_too, atol=1e-6)
+    assert strange.mean() > mine.mean() + 0.1
+
+
 @pytest.mark.parametrize("name", ["lsgan", "mmd"])
 def test_a_told_measure_is_the_inner_one_on_features_with_the_code(name):
-    inner = measure_named(name, SETTINGS, "amp")
+    inner = measure_named(name, SETTINGS, "amp", code_size=2)
     told, key, human = Told(inner, 2), jax.random.key(0), HUMAN
     state = told.start(key, CANONICAL, human)
     natural = with_code(CANONICAL, jnp.zeros(2))

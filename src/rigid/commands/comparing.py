@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
+from rigid.commands.measuring import none_found
 from rigid.commands.parsing import printable
 from rigid.errors import UserError
 
@@ -97,6 +98,10 @@ class GateCommand:
             print(f"{'ok    ' if fine else 'FAILED'}  {text}")
         if (self.max_worst, self.max_auc) != (None, None):
             print(_WHY_WIDER)
+        if self.max_worst is not None:
+            found, seeds = _load(self.directory)[0].seeds_at(self.at_naturalness)
+            if found < seeds:
+                print(none_found(found, seeds, self.at_naturalness))
         return 0 if all(fine for fine, _ in verdicts) else GATE_FAILED
 
 

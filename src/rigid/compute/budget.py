@@ -67,8 +67,8 @@ def stored_preset(directory: Path, preset: Preset) -> Preset | None:
         stored = settings["identity"]["preset"]
         known = {field.name: stored[field.name] for field in fields(Preset) if field.name in stored}
         known |= {"per_round": tuple(stored["per_round"]), "seeds": tuple(settings["seeds"])}
-        if known.get("sharing") is not None:
-            known["sharing"] = Sharing(**known["sharing"])
+        sharing = known.get("sharing")  # Runs of before it was known have none.
+        known["sharing"] = None if sharing is None else Sharing(**sharing)
     except (OSError, ValueError, KeyError, TypeError):
         return None  # No measurement, or one that will be refused with its reason.
     return replace(preset, **known)

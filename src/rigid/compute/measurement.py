@@ -102,6 +102,11 @@ def measure_robot(
     clock = Clock()
     if settings is None:
         settings = settings_for(preset, memory, search_measure)
+    elif settings.sharing != preset.sharing:
+        raise ValueError(
+            f"settings have sharing {settings.sharing}, but preset {preset.name!r} has "
+            f"{preset.sharing}"
+        )
     elif (settings.iterations, settings.episodes) != (preset.iterations, preset.episodes):
         raise ValueError(
             f"settings train for {settings.iterations} iterations of {settings.episodes} episodes, "

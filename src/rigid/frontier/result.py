@@ -54,6 +54,17 @@ class Frontier:
         interval = self.data["auc_interval"]
         return None if interval is None else (float(interval[0]), float(interval[1]))
 
+    def seeds_at(self, level: float) -> tuple[int, int]:
+        """Search seeds that found a human of at least this naturalness, and all seeds.
+
+        In the others canonical play stands for the worst human there.
+        """
+        found = {
+            point.seed for point in measured_points(self.points)
+            if point.is_sound and point.naturalness >= level
+        }  # fmt: skip
+        return len(found), len(self.data["auc_by_seed"])
+
     def report(self, path: Path | str | None = None) -> Path:
         """Writes the self-contained HTML report and returns its path."""
         from rigid.report.gather import write_report

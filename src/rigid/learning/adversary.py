@@ -44,7 +44,8 @@ from rigid.tasks.protocol import Task, World
 ALONE = PPOSettings(learning_rate=5e-4, minibatch=1200, update_normaliser=False, signal_floor=0.3)
 """Of an adversary with a network of its own. Ours: the paper does not give them."""
 SHARED = replace(ALONE, learning_rate=1.5e-3, signal_floor=0.0)
-"""Of a network that serves many λ; its minibatches are a share of an iteration. Ours."""
+"""Of a network that serves many λ; its minibatches are a share of an iteration. It comes to rest by
+its learning rate alone: with a floor it hardly moved in as few iterations. Ours."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,7 +81,8 @@ class AdversarySettings:
     @property
     def shared_measure(self) -> Measure:
         """The measure that `measure` names, on features that hold a code where there is one."""
-        return measure_named(self.measure, self.discriminator, self.penalty)
+        code = 0 if self.sharing is None else CODE_SIZE
+        return measure_named(self.measure, self.discriminator, self.penalty, code)
 
 
 class Adversary(NamedTuple):
@@ -111,10 +113,10 @@ def start_adversary(
     opponent: Opponent, settings: AdversarySettings, lambda_: float, key: PRNGKeyArray
 ) -> Adversary:
     """A fresh adversary and its measure, before any step."""
-    network_key, measure_key = jax.random.split(key)
+    policy_key, critic_key, measure_key = jax.random.split(key, 3)
     canonical, measure = canonical_motion(opponent), settings.search_measure
     natural = lambda_ >= settings.natural_start
-    policy, critic = first_networks(opponent, settings, network_key, natural=natural)
+    policy, critic = first_networks(opponent, settings, (policy_key, critic_key), natural=natural)
     state = measure.start(measure_key, canonical, with_memory(opponent.human, settings.memory))
     return Adversary(
         start_learner(settings.ppo, policy, critic, policy.normaliser),
@@ -126,10 +128,14 @@ def start_adversary(
 
 
 def first_networks(
-    opponent: Opponent, settings: AdversarySettings, key: PRNGKeyArray, *, natural: bool
+    opponent: Opponent,
+    settings: AdversarySettings,
+    keys: tuple[PRNGKeyArray, PRNGKeyArray],
+    *,
+    natural: bool,
 ) -> tuple[GaussianParameters, MLP]:
     """Policy and critic before any step: the policy is the synthetic human, or random."""
-    policy_key, critic_key = jax.random.split(key)
+    policy_key, critic_key = keys
     human = with_memory(opponent.human, settings.memory)
     sizes = [human.network[0]["w"].shape[0], *(layer["w"].shape[1] for layer in human.network)]
     if not natural:

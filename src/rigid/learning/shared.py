@@ -116,18 +116,21 @@ def start_family(
     opponent: Opponent, settings: AdversarySettings, range_: Range, key: PRNGKeyArray
 ) -> Family:
     """A family before any step, with room for codes that nothing heeds yet."""
-    network_key, measure_key = jax.random.split(key)
-    policy, critic = first_networks(opponent, settings, network_key, natural=range_.natural)
+    policy_key, critic_key, measure_key = jax.random.split(key, 3)
+    policy, critic = first_networks(
+        opponent, settings, (policy_key, critic_key), natural=range_.natural
+    )
     policy, measure = told(policy), settings.shared_measure
-    canonical, codes = canonical_motion(opponent), jnp.asarray(range_.codes())
-    human = told(with_memory(opponent.human, settings.memory))
-    state = measure.start(measure_key, _beside(canonical, codes), human)
-    # Under one code at a time: before training, scores differ between codes by chance.
-    units = [measure.unit(state, with_code(canonical, code)) for code in codes]
+    # Under one code: before training scores differ between codes by chance, which is no unit.
+    code = jnp.asarray(range_.codes()[len(range_.lambdas) // 2])
+    canonical = with_code(canonical_motion(opponent), code)
+    state = measure.start(
+        measure_key, canonical, told(with_memory(opponent.human, settings.memory))
+    )
     return Family(
         start_learner(settings.ppo, policy, _told_critic(critic), policy.normaliser),
         state,
-        jnp.stack(units).mean(),
+        measure.unit(state, canonical),
         jnp.asarray(0, jnp.int32),
     )
 
@@ -199,10 +202,14 @@ def _draw(range_: Range, rng: np.random.Generator) -> Drawn:
 
 def _beside(
     canonical: Float[Array, "E T f"], codes: Float[Array, "S c"]
-) -> Float[Array, "SE T fc"]:
-    """Every canonical episode beside every code, so that a code alone tells nothing."""
-    again = jnp.tile(canonical, (len(codes), 1, 1))
-    return with_code(again, jnp.repeat(codes, len(canonical), axis=0)[:, None])
+) -> Float[Array, "ES T fc"]:
+    """Every canonical episode beside every code, so that a code alone tells nothing.
+
+    Neighbours have different codes: canonical rows that stand in for those after a fault are the
+    first ones, and must not all be of one λ.
+    """
+    again = jnp.repeat(canonical, len(codes), axis=0)
+    return with_code(again, jnp.tile(codes, (len(canonical), 1))[:, None])
 
 
 def _of_slot(metrics: Metrics, slot: int) -> Metrics:

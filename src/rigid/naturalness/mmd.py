@@ -40,6 +40,8 @@ class Rows(NamedTuple):
     values: Float[Array, "n f"]
     weight: Float[Array, " n"]
     episode: Int[Array, " n"]
+    code: Float[Array, "n c"]
+    """Whose rows they are; kernels only count among rows of the same code."""
 
 
 @dataclass(frozen=True)
@@ -51,17 +53,19 @@ class MMD:
     """
 
     references: int = REFERENCES
+    code_size: int = 0
+    """Last columns of the features that are a code (`rigid.naturalness.told`)."""
 
     def start(
         self, key: PRNGKeyArray, canonical: Float[Array, "E T f"], human: GaussianParameters
     ) -> Float[Array, ""]:
         """Median distance between canonical rows."""
         del key, human
-        return median_distance(_some(of_episodes(canonical), _MEDIAN_ROWS).values)
+        return median_distance(_some(self._rows(canonical), _MEDIAN_ROWS).values)
 
     def unit(self, state: Float[Array, ""], canonical: Float[Array, "E T f"]) -> Float[Array, ""]:
         """Deviation of the mean kernel of canonical rows with each other."""
-        rows = _some(of_episodes(canonical), self.references)
+        rows = _some(self._rows(canonical), self.references)
         return jnp.maximum(mean_kernel(rows, rows, state, same=True).std(), 1e-3)
 
     def penalty(
@@ -73,7 +77,7 @@ class MMD:
     ) -> Float[Array, "T N"]:
         """The witness at every step."""
         del policy
-        mine, natural = _of_motion(motion), of_episodes(canonical)
+        mine, natural = self._of_motion(motion), self._rows(canonical)
         others, canonical_ = _some(mine, self.references), _some(natural, self.references)
         found = mean_kernel(mine, others, state, same=True) - mean_kernel(
             mine, canonical_, state, same=False
@@ -96,7 +100,8 @@ class MMD:
         """Nothing to learn; the loss is MMD²."""
         del policy, iteration, keys
         mine, natural = (
-            _some(rows, self.references) for rows in (_of_motion(motion), of_episodes(canonical))
+            _some(rows, self.references)
+            for rows in (self._of_motion(motion), self._rows(canonical))
         )
         found = mmd2(mine, natural, state)
         return state, Health(found, unknown(), unknown(), unknown(), unknown())
@@ -108,6 +113,15 @@ class MMD:
     def score_kept(self, kept: dict[str, Array], features: Float[Array, "T N f"]) -> None:
         """There is no classifier."""
         del kept, features
+
+    def _rows(self, features: Float[Array, "E T f"]) -> Rows:
+        return of_episodes(features, self.code_size)
+
+    def _of_motion(self, motion: Motion) -> Rows:
+        rows = self._rows(motion.features.swapaxes(0, 1))
+        weight = motion.weight.T.reshape(-1)
+        # What follows a fault weighs nothing, and must not spoil a sum by being huge.
+        return rows._replace(values=jnp.where(weight[:, None] > 0, rows.values, 0.0), weight=weight)
 
 
 def bandwidths(median: Float[Array, ""]) -> Float[Array, " k"]:
@@ -137,7 +151,8 @@ def mean_kernel(
     kernels = [widest]
     for _ in range(2 * OCTAVES):
         kernels.append(kernels[-1] ** 4)
-    counted = jnp.broadcast_to(others.weight, widest.shape)
+    alike = (rows.code[:, None] == others.code[None]).all(axis=-1)
+    counted = jnp.where(alike, jnp.broadcast_to(others.weight, widest.shape), 0.0)
     if same:
         counted = jnp.where(rows.episode[:, None] == others.episode[None, :], 0.0, counted)
     total = (sum(kernels) * counted).sum(axis=1) / len(kernels)
@@ -154,18 +169,14 @@ def mmd2(adversary: Rows, canonical: Rows, median: Float[Array, ""]) -> Float[Ar
     return within[0] + within[1] - 2 * between
 
 
-def of_episodes(features: Float[Array, "E T f"]) -> Rows:
-    """Every step of sound episodes."""
+def of_episodes(features: Float[Array, "E T f"], code_size: int = 0) -> Rows:
+    """Every step of sound episodes; the last `code_size` columns are a code."""
     episodes, steps = features.shape[:2]
     own = jnp.repeat(jnp.arange(episodes), steps)
-    return Rows(features.reshape(episodes * steps, -1), jnp.ones(episodes * steps), own)
-
-
-def _of_motion(motion: Motion) -> Rows:
-    rows = of_episodes(motion.features.swapaxes(0, 1))
-    weight = motion.weight.T.reshape(-1)
-    # What follows a fault weighs nothing, and must not spoil a sum by being huge.
-    return Rows(jnp.where(weight[:, None] > 0, rows.values, 0.0), weight, rows.episode)
+    values, code = jnp.split(
+        features.reshape(episodes * steps, -1), [features.shape[-1] - code_size], axis=1
+    )
+    return Rows(values, jnp.ones(episodes * steps), own, code)
 
 
 def _some(rows: Rows, count: int) -> Rows:

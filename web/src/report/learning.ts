@@ -22,7 +22,7 @@ export function learning(payload: Payload, chosen: Signal<Point | null>, choose:
     h("h2", {}, "How it learned, and its discriminator"),
     h("figure", {}, grid,
       caption(
-        "Training of the chosen human: the return it left the robot, and the discriminator (−1 canonical, +1 adversary) that held its motion close.",
+        "Training of the chosen human (of the λ nearest to it, where λ share a network): the return it left the robot, and the discriminator (−1 canonical, +1 adversary) that held its motion close.",
         "This discriminator is the search's own and differs from run to run; naturalness on the frontier is the referee's. An accuracy near one half can mean a natural human or a weak discriminator.",
       )),
     h("h3", { class: "told-title" }, "What its discriminator tells apart"),
