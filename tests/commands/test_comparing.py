@@ -90,11 +90,16 @@ def test_the_gate_opens_when_every_upper_bound_keeps_its_limit(rigid, two_runs):
     assert [line[:6] for line in out.splitlines()[:3]] == ["ok    ", "ok    ", "upper "]
 
 
-def test_the_gate_says_where_no_natural_human_was_found(rigid, two_runs):
-    """No human is perfectly natural here; each is at least not natural at all."""
+def test_the_gate_says_where_no_natural_human_was_found(rigid, two_runs, tmp_path):
+    """All humans stand at naturalness 0.5."""
+    copy = shutil.copytree(two_runs[0], tmp_path / "half-natural")
+    data = json.loads((copy / "frontier.json").read_text())
+    data["points"] = [{**point, "naturalness": 0.5} for point in data["points"]]
+    (copy / "frontier.json").write_text(json.dumps(data))
     found = [
-        "canonical play stands there" in rigid("gate", two_runs[0], "--max-worst", "1", *level)[1]
-        for level in (("--at-naturalness", "1"), ("--at-naturalness", "0"))
+        "canonical play stands there"
+        in rigid("gate", copy, "--max-worst", "1", "--at-naturalness", level)[1]
+        for level in ("0.6", "0.4")
     ]
     assert found == [True, False]
 
