@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import sys
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +18,7 @@ INTERRUPTED = 130
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
+class Study(ABC):
     """What every study can be told; a study adds its own options and says what it does."""
 
     out: Path | None = None
@@ -27,9 +28,9 @@ class Study:
     quick: bool = False
     """The whole road in some minutes, with budgets that say nothing."""
 
+    @abstractmethod
     def run(self) -> None:
         """Runs the study, or what is left of it."""
-        raise NotImplementedError
 
     def places(self, name: str, *, runs: str | None = None) -> tuple[Path, Path]:
         """Where raw runs and results go.
@@ -39,9 +40,12 @@ class Study:
             runs: Folder of the raw runs of a full study, below `runs/`; `name` by default.
 
         Example:
-            >>> [str(place) for place in Study().places("planted")]
+            >>> class Mine(Study):
+            ...     def run(self) -> None:
+            ...         pass
+            >>> [str(place) for place in Mine().places("planted")]
             ['runs/planted', 'results/planted']
-            >>> [str(place) for place in Study(quick=True).places("planted")]
+            >>> [str(place) for place in Mine(quick=True).places("planted")]
             ['runs/planted-quick', 'runs/planted-quick/results']
         """
         out = self.out or Path("runs") / (f"{name}-quick" if self.quick else runs or name)

@@ -11,6 +11,18 @@ from rigid.presets import Preset
 
 ITERATIONS, EPISODES = 40, 16
 """Instead of 120 and 48."""
+QUICK_PRESET = Preset(
+    name="quick",
+    seeds=(0, 1),
+    per_round=(2,),
+    iterations=2,
+    episodes=4,
+    scoring_episodes=6,
+    referee_episodes=6,
+    validation_episodes=3,
+    referee_canonical=20,
+)
+"""The whole road with budgets that say nothing; a study gives it a name and a stamp."""
 
 
 def short_settings(preset: Preset, measure: str = DEFAULT_MEASURE) -> AdversarySettings:

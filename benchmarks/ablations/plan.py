@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from benchmarks.short_search import EPISODES, ITERATIONS, short_settings
+from benchmarks.short_search import EPISODES, ITERATIONS, QUICK_PRESET, short_settings
 from rigid.learning.adversary import AdversarySettings
 from rigid.naturalness.features import DEFAULT, OBSERVATION, OBSERVATION_ACTION
 from rigid.presets import Preset
@@ -136,16 +136,10 @@ PLAN = Plan(
     command="python -m benchmarks.ablations",
 )  # fmt: skip
 QUICK = Plan(
-    preset=Preset(
+    preset=replace(
+        QUICK_PRESET,
         name="ablations-quick",
-        seeds=(0, 1),
         per_round=(3,),
-        iterations=2,
-        episodes=4,
-        scoring_episodes=6,
-        referee_episodes=6,
-        validation_episodes=3,
-        referee_canonical=20,
         stamp="quick: budgets that say nothing about any variant",
     ),
     lambdas=(0.05, 0.4, 1.6),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from benchmarks.short_search import EPISODES, ITERATIONS
+from benchmarks.short_search import EPISODES, ITERATIONS, QUICK_PRESET
 from rigid.naturalness.choice import DEFAULT_MEASURE
 from rigid.presets import Preset
 
@@ -89,16 +89,9 @@ PLAN = Plan(
     command="python -m benchmarks.measures",
 )
 QUICK = Plan(
-    preset=Preset(
+    preset=replace(
+        QUICK_PRESET,
         name="measures-quick",
-        seeds=(0, 1),
-        per_round=(2,),
-        iterations=2,
-        episodes=4,
-        scoring_episodes=6,
-        referee_episodes=6,
-        validation_episodes=3,
-        referee_canonical=20,
         stamp="quick: budgets that say nothing about any measure",
     ),
     measures=("lsgan", "mmd", "ensemble"),

@@ -33,20 +33,13 @@ _PASSIVE = "passive"
 _KINDS = f"{_BUILTIN}NAME or a native policy directory ({CARD_FILE} beside its weights)"
 
 
-def load_policy(
-    spec: str,
-    *,
-    task: Task,
-    agent: Agent,
-    trust: bool = False,  # noqa: ARG001 - for kinds that run code; native files hold none
-) -> Policy:
+def load_policy(spec: str, *, task: Task, agent: Agent) -> Policy:
     """The policy that `spec` names, for `agent` of `task`.
 
     Args:
         spec: `builtin:NAME` or a native policy directory.
         task: The task it has to fit.
         agent: Whom it acts for.
-        trust: Whether files that run code when they are opened are allowed.
 
     Raises:
         UserError: There is no such policy, its files are damaged, it acts for the other agent, was

@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 import csv
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
 from benchmarks.ablations.__main__ import main
-
-ROOT = Path(__file__).parents[3]
+from tests.benchmarks.quick import quick_run
 
 
 @pytest.mark.slow
 def test_a_quick_run_goes_from_training_to_the_account_and_goes_on_at_once(tmp_path):
-    def run():
-        command = [sys.executable, "-m", "benchmarks.ablations", "--quick", "--out", tmp_path]
-        return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-
-    first = run()
+    first = quick_run("ablations", tmp_path)
     assert first.returncode == 0, first.stderr
     results = tmp_path / "results"
     names = {path.name for path in results.iterdir()}
@@ -29,11 +21,11 @@ def test_a_quick_run_goes_from_training_to_the_account_and_goes_on_at_once(tmp_p
         sizes = list(csv.DictReader(file))
     assert len(sizes) == 2 * 7 * 2  # Judges, humans, sizes.
     before = {name: (results / name).read_bytes() for name in names}
-    again = run()
+    again = quick_run("ablations", tmp_path)
     assert "0 of 8 parts to do" in again.stdout
     assert {name: (results / name).read_bytes() for name in names} == before
     (tmp_path / "default" / "s0.json").write_text("{")
-    damaged = run()
+    damaged = quick_run("ablations", tmp_path)
     assert damaged.returncode == 2
     assert "s0.json is damaged: delete it to make it again" in damaged.stderr
 

@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 import csv
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
 from benchmarks.measures.__main__ import main
-
-ROOT = Path(__file__).parents[3]
+from tests.benchmarks.quick import quick_run
 
 
 @pytest.mark.slow
 def test_a_quick_run_goes_from_searches_to_the_account_and_goes_on_at_once(tmp_path):
-    def run():
-        command = [sys.executable, "-m", "benchmarks.measures", "--quick", "--out", tmp_path]
-        return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-
-    first = run()
+    first = quick_run("measures", tmp_path)
     assert first.returncode == 0, first.stderr
     results = tmp_path / "results"
     names = {path.name for path in results.iterdir()}
@@ -30,7 +22,7 @@ def test_a_quick_run_goes_from_searches_to_the_account_and_goes_on_at_once(tmp_p
     # Five searches of two seeds and two λ.
     assert len(points) == 5 * 2 * 2
     before = {name: (results / name).read_bytes() for name in names}
-    again = run()
+    again = quick_run("measures", tmp_path)
     assert "0 to do" in again.stdout
     assert {name: (results / name).read_bytes() for name in names} == before
 

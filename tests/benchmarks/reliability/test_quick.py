@@ -4,22 +4,15 @@ from __future__ import annotations
 
 import csv
 import json
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[3]
+from tests.benchmarks.quick import quick_run
 
 
 @pytest.mark.slow
 def test_a_quick_run_draws_everything_anew_and_goes_on_at_once(tmp_path):
-    def run():
-        command = [sys.executable, "-m", "benchmarks.reliability", "--quick", "--out", tmp_path]
-        return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-
-    first = run()
+    first = quick_run("reliability", tmp_path)
     assert first.returncode == 0, first.stderr
     results = tmp_path / "results"
     names = {path.name for path in results.iterdir()}
@@ -30,7 +23,7 @@ def test_a_quick_run_draws_everything_anew_and_goes_on_at_once(tmp_path):
     with (results / "table.csv").open() as file:
         assert len(list(csv.DictReader(file))) == 3 * 3
     before = (results / "table.csv").read_bytes()
-    again = run()
+    again = quick_run("reliability", tmp_path)
     said = " ".join(again.stderr.split())  # The terminal may break lines anywhere.
     assert said.count("is already complete; nothing to do") == 3
     assert (results / "table.csv").read_bytes() == before
