@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from rigid.commands.measuring import none_found
 from rigid.commands.parsing import printable
 from rigid.errors import UserError
 
@@ -99,9 +98,9 @@ class GateCommand:
         if (self.max_worst, self.max_auc) != (None, None):
             print(_WHY_WIDER)
         if self.max_worst is not None:
-            found, seeds = _load(self.directory)[0].seeds_at(self.at_naturalness)
-            if found < seeds:
-                print(none_found(found, seeds, self.at_naturalness))
+            lacking = _load(self.directory)[0].lacking_at(self.at_naturalness)
+            if lacking is not None:
+                print(lacking)
         return 0 if all(fine for fine, _ in verdicts) else GATE_FAILED
 
 

@@ -162,25 +162,12 @@ def headline(frontier: Frontier, report: Path) -> str:
         f"  {len(frontier.points)} adversaries, {_seeds(data)}; lower is better",
         "  an estimate at this search power, not a bound",
     ]
-    found, seeds = frontier.seeds_at(0.9)
-    if found < seeds:
-        lines.append(f"  {none_found(found, seeds, 0.9)}")
+    lacking = frontier.lacking_at(0.9)
+    if lacking is not None:
+        lines.append(f"  {lacking}")
     if data.get("stamp"):
         lines.append(f"  {data['stamp']}")
     return "\n".join([*lines, "", f"report: {report}"])
-
-
-def none_found(found: int, seeds: int, level: float) -> str:
-    """Says that `worst_at` rests on canonical play in some seeds.
-
-    Example:
-        >>> none_found(2, 8, 0.9)
-        '2 of 8 seeds found a human at naturalness ≥ 0.9; in the others canonical play stands there'
-    """
-    return (
-        f"{found} of {seeds} seeds found a human at naturalness ≥ {level:g}; in the others "
-        "canonical play stands there"
-    )
 
 
 def _seeds(data: Mapping[str, Any]) -> str:

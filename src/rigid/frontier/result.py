@@ -55,15 +55,22 @@ class Frontier:
         return None if interval is None else (float(interval[0]), float(interval[1]))
 
     def seeds_at(self, level: float) -> tuple[int, int]:
-        """Search seeds that found a human of at least this naturalness, and all seeds.
-
-        In the others canonical play stands for the worst human there.
-        """
+        """How many search seeds found a human of at least this naturalness, and of how many."""
         found = {
             point.seed for point in measured_points(self.points)
             if point.is_sound and point.naturalness >= level
         }  # fmt: skip
         return len(found), len(self.data["auc_by_seed"])
+
+    def lacking_at(self, level: float) -> str | None:
+        """Says that `worst_at` rests on canonical play in some seeds; None where it does not."""
+        found, seeds = self.seeds_at(level)
+        if found == seeds:
+            return None
+        return (
+            f"{found} of {seeds} seeds found a human at naturalness ≥ {level:g}; in the others "
+            "canonical play stands there"
+        )
 
     def report(self, path: Path | str | None = None) -> Path:
         """Writes the self-contained HTML report and returns its path."""
