@@ -13,8 +13,9 @@ import jax
 from benchmarks.ablations.humans import Parts, parts_of
 from benchmarks.ablations.plan import HUMAN, ROBOT, TASK, Plan, Variant
 from benchmarks.study import once
+from rigid.compute.convergence import convergence
 from rigid.compute.endings import measure
-from rigid.compute.group import GroupInputs, GroupPlan, convergence, train_group
+from rigid.compute.group import GroupInputs, GroupPlan, train_group
 from rigid.compute.preparation import Prepared, Subject, prepare
 from rigid.compute.scoring import play_with
 from rigid.learning.group_play import group_actor, phase_rng

@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from rigid.compute.group import GroupPlan, convergence, json_lambda
+from rigid.compute.convergence import convergence
+from rigid.compute.group import GroupPlan, json_lambda
 
 PLAN = GroupPlan(seed=3, round=2, lambdas=(0.1, math.inf))
 

@@ -102,3 +102,9 @@ def test_another_code_is_another_policy(heeding):
 def test_a_family_of_one_slot_is_refused():
     with pytest.raises(ValueError, match=r"2 slots or more .* wild_slots 4 and natural_slots 1"):
         Sharing(natural_slots=1)
+
+
+@pytest.mark.parametrize("wrong", [{"wild_noise": 0.0}, {"wild_quiet_from": 1.5}])
+def test_noise_that_never_settles_is_refused(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong)) + " " + str(*wrong.values())):
+        Sharing(**wrong)

@@ -12,7 +12,7 @@ import pytest
 from rigid.compute.checkpoint import load_tree, save_tree
 from rigid.learning.adversary import AdversarySettings
 from rigid.learning.conditioned import Sharing
-from rigid.learning.group_play import Opponent
+from rigid.learning.group_play import Opponent, play_group
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import play, policy_actor
 from rigid.learning.shared import (
@@ -162,3 +162,21 @@ def test_an_adversary_is_a_policy_without_a_code_that_remembers_as_settings_say(
     families, ranges, _ = train(REACH, reach, settings, (0.0, 1.0, 2.0), 1)
     for adversary in members(families, ranges).values():
         assert adversary.learner.policy.network[0]["w"].shape[0] == 3 * REACH.human.observation_size
+
+
+def test_the_wild_family_explores_loudly_and_rests_at_the_noise_of_the_human(reach, monkeypatch):
+    """Played with three times the noise at first, with the human's from 60 % on; stored: always."""
+    played = []
+
+    def listen(task, world, policies, *others):
+        played.append([float(each.log_std[0] - HUMAN.log_std[0]) for each in policies])
+        return play_group(task, world, policies, *others)
+
+    monkeypatch.setattr("rigid.learning.shared.play_group", listen)
+    settings = replace(ALONE, sharing=FEW, episodes=8, iterations=5)
+    families, ranges, _ = train(REACH, reach, settings, (0.0, 1.0), 4)
+    factors = np.exp(played)
+    np.testing.assert_allclose(factors[:, 0], [3, 3 ** (2 / 3), 3 ** (1 / 3), 1], rtol=1e-5)
+    np.testing.assert_array_equal(factors[:, 2:], 1.0)
+    for adversary in members(families, ranges).values():
+        np.testing.assert_array_equal(adversary.learner.policy.log_std, HUMAN.log_std)

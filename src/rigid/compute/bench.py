@@ -130,7 +130,8 @@ def paper_core_hours() -> dict[str, float]:
         inputs = group_inputs(preset, Path(directory))
         lambdas = first_lambdas(preset.lambda_min, preset.lambda_max, preset.per_round[0])
         clock = Clock()
-        run_group(inputs, GroupPlan(0, 1, tuple(lambdas)))
+        with clock.working():
+            run_group(inputs, GroupPlan(0, 1, tuple(lambdas)))
         spent = clock.read()
     return {
         "paper_core_hours": round(GROUPS_OF_PAPER * spent["core_seconds"] / 3600, 3),

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import resource
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from rigid.errors import UserError
@@ -15,10 +17,15 @@ _EVERY = 5.0
 
 
 class Clock:
-    """Wall and processor time of this process and its children since the clock was made."""
+    """Wall time since the clock was made, and the processor time that its measurement took.
+
+    Processor time is that of this process and its children while they work for the measurement, and
+    what workers elsewhere report: of several measurements under way, each counts its own.
+    """
 
     def __init__(self) -> None:
-        self._wall, self._core = time.perf_counter(), _core_seconds()
+        self._wall, self._core = time.perf_counter(), 0.0
+        self._since: float | None = None
         self._earlier = {"core_seconds": 0.0, "wall_seconds": 0.0}
         self._note: Path | None = None
         self._noted = self._wall
@@ -39,6 +46,19 @@ class Clock:
         except (ValueError, KeyError, TypeError):
             raise UserError(f"{note} is damaged: {cure}") from None
 
+    @contextmanager
+    def working(self) -> Iterator[None]:
+        """Counts the processor time that passes inside."""
+        self._since = core_seconds()
+        try:
+            yield
+        finally:
+            self._core, self._since = self._spent(), None
+
+    def add(self, core_seconds: float) -> None:
+        """Counts what a worker in another process took [s]."""
+        self._core += core_seconds
+
     def tick(self) -> None:
         """Notes the time now and then."""
         if time.perf_counter() - self._noted >= _EVERY:
@@ -54,12 +74,17 @@ class Clock:
     def read(self) -> dict[str, float]:
         """Time spent in all sessions so far [s]."""
         now = {
-            "core_seconds": _core_seconds() - self._core,
+            "core_seconds": self._spent(),
             "wall_seconds": time.perf_counter() - self._wall,
         }
         return {name: round(self._earlier[name] + spent, 1) for name, spent in now.items()}
 
+    def _spent(self) -> float:
+        now = 0.0 if self._since is None else core_seconds() - self._since
+        return self._core + now
 
-def _core_seconds() -> float:
+
+def core_seconds() -> float:
+    """Processor time of this process and its ended children so far [s]."""
     usages = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(usage.ru_utime + usage.ru_stime for usage in usages)

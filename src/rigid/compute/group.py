@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from rigid.compute.checkpoint import load_tree, save_arrays, save_tree
+from rigid.compute.convergence import convergence
 from rigid.compute.referee_files import save_panel
 from rigid.compute.scoring import Court, Ruler, judge, score
 from rigid.errors import UserError
@@ -72,11 +73,21 @@ class GroupInputs:
     preset: Preset
     settings: AdversarySettings
     directory: Path
+    threads: int = 0
+    """Threads that step worlds; 0: every core. No number depends on it."""
 
 
 def search_of(inputs: GroupInputs, plan: GroupPlan) -> Search:
     """How the group is trained."""
     return search_for(inputs.task, inputs.opponent, inputs.settings, plan.lambdas, plan.entropy)
+
+
+def training_steps(inputs: GroupInputs, plan: GroupPlan) -> int:
+    """Environment steps of a group's training."""
+    preset = inputs.preset
+    return (
+        search_of(inputs, plan).blocks * preset.iterations * preset.episodes * inputs.task.horizon
+    )
 
 
 def run_group(
@@ -92,16 +103,16 @@ def run_group(
     Returns:
         One entry of `frontier.json`'s points for each λ, in the order of the plan.
     """
-    done = inputs.directory / "groups" / f"{plan.name}.json"
-    preset = inputs.preset
-    blocks = search_of(inputs, plan).blocks
-    steps = blocks * preset.iterations * preset.episodes * inputs.task.horizon
-    if done.exists():
+    steps = training_steps(inputs, plan)
+    finished = read_finished(inputs.directory, plan)
+    if finished is not None:
         advance(steps)
-        return _read_done(done, plan)
+        return finished
     group, history = train_group(inputs, plan, advance)
     policies = [adversary.learner.policy for adversary in group]
-    court = Court(inputs.task, inputs.opponent, inputs.ruler, inputs.preset, inputs.settings)
+    court = Court(
+        inputs.task, inputs.opponent, inputs.ruler, inputs.preset, inputs.settings, inputs.threads
+    )
     judged = judge(court, policies, plan.entropy)
     scored = score(court, group, judged, plan.entropy)
     points = []
@@ -121,6 +132,7 @@ def run_group(
             inputs.directory / "referee", name, judged[index].panel, inputs.task.feature_names
         )
         save_arrays(inputs.directory / "adversaries" / name / "episodes.npz", episodes)
+    done = _done(inputs.directory, plan)
     done.parent.mkdir(exist_ok=True)
     write_atomically(done, json_text({"points": points}, indent=1).encode())
     (inputs.directory / "groups" / f"{plan.name}.safetensors").unlink(missing_ok=True)
@@ -132,8 +144,15 @@ def json_lambda(lambda_: float) -> float | str:
     return "inf" if np.isinf(lambda_) else lambda_
 
 
-def _read_done(path: Path, plan: GroupPlan) -> list[dict[str, Any]]:
-    cure = "delete it to train its group again"
+def read_finished(directory: Path, plan: GroupPlan) -> list[dict[str, Any]] | None:
+    """The points of a group that a run directory holds; None for one that is not done.
+
+    Raises:
+        UserError: Its file is damaged, or of other adversaries.
+    """
+    path, cure = _done(directory, plan), "delete it to train its group again"
+    if not path.exists():
+        return None
     try:
         points: list[dict[str, Any]] = json.loads(read_bytes(path, cure=cure))["points"]
         found = [point["id"] for point in points]
@@ -143,6 +162,11 @@ def _read_done(path: Path, plan: GroupPlan) -> list[dict[str, Any]]:
     if found != wanted:
         raise UserError(f"{path} holds the points {found}, not {wanted}: {cure}")
     return points
+
+
+def _done(directory: Path, plan: GroupPlan) -> Path:
+    """Exists when the group is done, and only then."""
+    return directory / "groups" / f"{plan.name}.json"
 
 
 def train_group(
@@ -165,7 +189,7 @@ def train_group(
             _read_metrics(inputs, plan.member(i), count, checkpoint) for i in range(len(history))
         ]
         advance(per_iteration * count)
-    world = inputs.task.make_world(search.blocks * inputs.preset.episodes)
+    world = inputs.task.make_world(search.blocks * inputs.preset.episodes, threads=inputs.threads)
     for iteration in range(search.iteration(state), inputs.preset.iterations):
         state, metrics = search.iterate(world, state)
         for rows, seen in zip(history, metrics, strict=True):
@@ -223,38 +247,3 @@ def _read_metrics(inputs: GroupInputs, name: str, count: int, checkpoint: Path) 
     if len(rows) < count:
         raise UserError(f"{path} is damaged ({len(rows)} of {count} iterations): {cure}")
     return rows[:count]
-
-
-def convergence(history: Sequence[Row]) -> dict[str, Any]:
-    """Whether training had come to rest, from the last fifth of the iterations (ours).
-
-    `converged`: the return moved by less than one standard deviation of its iteration-to-iteration
-    noise between the two halves of that fifth, and the discriminator still errs on some adversary
-    rows or none of them look canonical (it neither collapsed nor froze); a measure without a
-    discriminator has none that could.
-    """
-    window = max(len(history) // 5, 2)
-    tail = history[-window:]
-    returns = np.array([row["mean_return"] for row in tail])
-    half = len(returns) // 2
-    drift = float(returns[half:].mean() - returns[:half].mean())
-    noise = float(np.abs(np.diff(returns)).mean())
-    rested = abs(drift) <= max(noise, 1e-9)
-    accuracy = {
-        side: _mean([row[f"accuracy_{side}"] for row in tail])
-        for side in ("canonical", "adversary")
-    }
-    alert = accuracy["canonical"] is None or accuracy["canonical"] > 0.5
-    return {
-        "converged": bool(rested and alert),
-        "return_drift": drift,
-        "accuracy_canonical": accuracy["canonical"],
-        "accuracy_adversary": accuracy["adversary"],
-        "entropy": float(tail[-1]["entropy"]),
-    }
-
-
-def _mean(values: Sequence[float | None]) -> float | None:
-    """None where one is unknown."""
-    known = [value for value in values if value is not None]
-    return float(np.mean(known)) if len(known) == len(values) else None

@@ -46,6 +46,8 @@ class Court(NamedTuple):
     preset: Preset
     settings: AdversarySettings
     """What the adversaries were trained with; says how their own discriminators score."""
+    threads: int = 0
+    """Threads that step worlds; 0: every core."""
 
 
 class Judged(NamedTuple):
@@ -63,8 +65,9 @@ def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) ->
     count = preset.referee_episodes + preset.validation_episodes
     starts = rng.integers(2**31, size=count)
     episodes = play_with(
-        court.task, court.opponent.robot, group_actor(policies, rng), starts, humans=len(policies)
-    )
+        court.task, court.opponent.robot, group_actor(policies, rng), starts,
+        humans=len(policies), threads=court.threads,
+    )  # fmt: skip
     parts = slice(preset.referee_episodes), slice(preset.referee_episodes, None)
     seen = []
     for index in range(len(policies)):
@@ -94,7 +97,7 @@ def score(
     snapshots: list[np.ndarray] = []
     episodes = play_with(
         court.task, court.opponent.robot, group_actor(policies, rng), starts,
-        humans=len(group), snapshots=snapshots,
+        humans=len(group), snapshots=snapshots, threads=court.threads,
     )  # fmt: skip
     endings = ended(episodes)
     shown = [_shown(endings, _block(index, count)) for index in range(len(group))]
@@ -155,6 +158,7 @@ def play_with(
     *,
     humans: int = 1,
     snapshots: list[np.ndarray] | None = None,
+    threads: int = 0,
 ) -> Trajectories:
     """Plays episodes from `starts` with each of several humans, in one set of worlds.
 
@@ -165,9 +169,10 @@ def play_with(
         starts: Episode seeds, the same for every human.
         humans: How many there are.
         snapshots: Is given one entry a step, for replays.
+        threads: That step the worlds; 0: every core.
     """
     seeds = np.tile(starts, humans)
-    world = task.make_world(len(seeds))
+    world = task.make_world(len(seeds), threads=threads)
 
     def keep(*_: object) -> None:
         if snapshots is not None:
@@ -184,7 +189,9 @@ def _canonical_companions(
     snapshots: list[np.ndarray] = []
     human = GaussianPolicy(court.opponent.human)
     actor = policy_actor(human, len(seeds), phase_rng(entropy, "canonical"))
-    played = play_with(court.task, court.opponent.robot, actor, seeds, snapshots=snapshots)
+    played = play_with(
+        court.task, court.opponent.robot, actor, seeds, snapshots=snapshots, threads=court.threads
+    )
     return ended(played), np.stack(snapshots).swapaxes(0, 1)
 
 

@@ -22,7 +22,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int, PRNGKeyArray, Shaped
 
-from rigid.learning.conditioned import CODE_SIZE, Sharing
+from rigid.learning.conditioned import Sharing
 from rigid.learning.group_play import (
     Experience,
     Opponent,
@@ -36,7 +36,6 @@ from rigid.naturalness.choice import DEFAULT_MEASURE, measure_named
 from rigid.naturalness.lsgan import DiscriminatorSettings
 from rigid.naturalness.measure import Health, Measure, Motion, unknown
 from rigid.naturalness.standardise import canonical_scale, standardise
-from rigid.naturalness.told import Told
 from rigid.policies.gaussian import GaussianParameters, with_memory
 from rigid.policies.networks import MLP, init_mlp
 from rigid.tasks.protocol import Task, World
@@ -75,14 +74,8 @@ class AdversarySettings:
 
     @property
     def search_measure(self) -> Measure:
-        """The measure that `measure` names, told whom it judges where adversaries share it."""
-        return self.shared_measure if self.sharing is None else Told(self.shared_measure, CODE_SIZE)
-
-    @property
-    def shared_measure(self) -> Measure:
-        """The measure that `measure` names, on features that hold a code where there is one."""
-        code = 0 if self.sharing is None else CODE_SIZE
-        return measure_named(self.measure, self.discriminator, self.penalty, code)
+        """The measure that `measure` names."""
+        return measure_named(self.measure, self.discriminator, self.penalty)
 
 
 class Adversary(NamedTuple):

@@ -39,16 +39,27 @@ class Sharing:
     wild_to: float = 0.4
     """The wild one also trains at λ up to here: some pull towards canonical motion leads it out of
     sabotage that is not the worst."""
+    wild_noise: float = 3.0
+    """The wild one starts with this many times the human's action noise: with the human's alone
+    half of the seeds stay where the arm only keeps out of the robot's reach."""
+    wild_quiet_from: float = 0.6
+    """Share of the iterations after which it has the human's noise."""
     natural_from: float = 0.1
     """The natural one also trains at λ from here on: those that are pulled less find the robot's
     weak places first, for the others to make natural."""
 
     def __post_init__(self) -> None:
-        """Raises `ValueError` for a family that could not reach both ends of its range."""
+        """Raises `ValueError` for families that could not reach both ends or come to rest."""
         if min(self.wild_slots, self.natural_slots) < 2:
             raise ValueError(
                 "a family needs 2 slots or more to reach both ends of its range, got wild_slots "
                 f"{self.wild_slots} and natural_slots {self.natural_slots}"
+            )
+
+        if self.wild_noise <= 0 or not 0 < self.wild_quiet_from <= 1:
+            raise ValueError(
+                "the wild family needs noise above 0 and a share of iterations in (0, 1], got "
+                f"wild_noise {self.wild_noise} and wild_quiet_from {self.wild_quiet_from}"
             )
 
     @property

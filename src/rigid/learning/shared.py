@@ -1,9 +1,10 @@
 """Adversaries that share a network: one policy learns for many λ at a time.
 
 What one λ learns of the robot's weak places serves its neighbours, so that a group of them costs no
-more for being dense. A family is one network with one search measure; at each iteration it plays at
-as many λ of its range as it has slots, and a code tells network and measure which is meant. There
-are two families (`Sharing`): one starts from random weights, one at the synthetic human. Ours.
+more for being dense. A family is one network; at each iteration it plays at as many λ of its range
+as it has slots, and a code tells the network which is meant. Each slot has a search measure of its
+own. There are two families (`Sharing`): one starts from random weights and explores loudly, one at
+the synthetic human. Ours.
 """
 
 from __future__ import annotations
@@ -11,12 +12,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int, PRNGKeyArray
+from jaxtyping import Array, Float, Int, PRNGKeyArray, Shaped
 
 from rigid.learning.adversary import (
     Adversary,
@@ -48,7 +50,7 @@ from rigid.learning.group_play import (
 )
 from rigid.learning.ppo import Learner, ppo_update, start_learner
 from rigid.naturalness.measure import Motion, unknown
-from rigid.naturalness.told import ToldState, with_code
+from rigid.naturalness.side_by_side import SideBySide
 from rigid.policies.gaussian import with_memory
 from rigid.policies.networks import MLP
 from rigid.tasks.protocol import Task, World
@@ -61,10 +63,10 @@ class Family(NamedTuple):
     """Adversaries of one network in training; a pytree, so that it can be saved."""
 
     learner: Learner
-    measure: Any
-    """State of the search measure that all of them share."""
-    penalty_std: Float[Array, ""]
-    """σ_P, frozen."""
+    measures: Any
+    """States of the slots' search measures, stacked."""
+    penalty_std: Float[Array, " S"]
+    """σ_P of each slot, frozen."""
     iteration: Int[Array, ""]
 
 
@@ -81,6 +83,14 @@ class Range(NamedTuple):
     def codes(self) -> Float[np.ndarray, "L c"]:
         """The code of each λ."""
         return codes_at(np.arange(len(self.lambdas), dtype=float), len(self.lambdas))
+
+    def slot(self, lambda_: float) -> int:
+        """The slot that plays nearest to one of `lambdas`."""
+        return slot_of(self.lambdas.index(lambda_), len(self.lambdas), self.slots)
+
+    def measures(self, settings: AdversarySettings) -> SideBySide:
+        """One search measure for each slot."""
+        return SideBySide(settings.search_measure, self.slots)
 
 
 class Drawn(NamedTuple):
@@ -120,17 +130,14 @@ def start_family(
     policy, critic = first_networks(
         opponent, settings, (policy_key, critic_key), natural=range_.natural
     )
-    policy, measure = told(policy), settings.shared_measure
-    # Under one code: before training scores differ between codes by chance, which is no unit.
-    code = jnp.asarray(range_.codes()[len(range_.lambdas) // 2])
-    canonical = with_code(canonical_motion(opponent), code)
-    state = measure.start(
-        measure_key, canonical, told(with_memory(opponent.human, settings.memory))
-    )
+    policy, measures = told(policy), range_.measures(settings)
+    canonical = canonical_motion(opponent)
+    human = told(with_memory(opponent.human, settings.memory))
+    states = measures.start(measure_key, canonical, human)
     return Family(
         start_learner(settings.ppo, policy, _told_critic(critic), policy.normaliser),
-        state,
-        measure.unit(state, canonical),
+        states,
+        measures.unit(states, canonical),
         jnp.asarray(0, jnp.int32),
     )
 
@@ -152,7 +159,7 @@ def family_iteration(
     settings: AdversarySettings,
     seed: int,
 ) -> tuple[list[Family], dict[float, Metrics]]:
-    """One iteration of every family: play, one policy update, one update of its measure.
+    """One iteration of every family: play, one policy update, one update of its measures.
 
     All randomness comes from (`seed`, iteration), as in `train_iteration`.
 
@@ -162,9 +169,14 @@ def family_iteration(
     iteration = int(families[0].iteration)
     rng = phase_rng(seed, "train", iteration)
     drawn = [_draw(each, rng) for each in ranges]
+    louder = [_louder(each, settings, iteration) for each in ranges]
+    exploring = [
+        _sampling(family.learner, opponent.human.log_std + np.log(factor, dtype=np.float32))
+        for family, factor in zip(families, louder, strict=True)
+    ]
     policies = [
-        at_code(family.learner.policy, code)
-        for family, given in zip(families, drawn, strict=True)
+        at_code(learner.policy, code)
+        for learner, given in zip(exploring, drawn, strict=True)
         for code in given.codes
     ]
     played = play_group(task, world, policies, opponent, settings.episodes, settings.memory, rng)
@@ -176,21 +188,33 @@ def family_iteration(
     for index, (family, range_) in enumerate(zip(families, ranges, strict=True)):
         own = slice(first * settings.episodes, (first + range_.slots) * settings.episodes)
         updated, metrics = _update(
-            family,
+            family._replace(learner=exploring[index]),
             Experience(*(rows[:, own] for rows in played.experience)),
             drawn[index],
             canonical,
             jax.random.fold_in(key, index),
             settings=settings,
         )
-        after.append(updated)
+        after.append(updated._replace(learner=_sampling(updated.learner, opponent.human.log_std)))
         for lambda_ in range_.asked:
-            number = range_.lambdas.index(lambda_)
-            slot = slot_of(number, len(range_.lambdas), range_.slots)
+            slot = range_.slot(lambda_)
             mine = slice((first + slot) * settings.episodes, (first + slot + 1) * settings.episodes)
             seen[lambda_] = seen_by_task(_of_slot(metrics, slot), played, mine)
         first += range_.slots
     return after, seen
+
+
+def _sampling(learner: Learner, log_std: Float[Array, " a"]) -> Learner:
+    return learner._replace(policy=learner.policy._replace(log_std=log_std))
+
+
+def _louder(range_: Range, settings: AdversarySettings, iteration: int) -> float:
+    """Factor on the human's action noise in one iteration."""
+    sharing = settings.sharing
+    if sharing is None or range_.natural:
+        return 1.0
+    left = 1 - iteration / (sharing.wild_quiet_from * settings.iterations)
+    return float(sharing.wild_noise ** max(left, 0.0))
 
 
 def _draw(range_: Range, rng: np.random.Generator) -> Drawn:
@@ -200,21 +224,10 @@ def _draw(range_: Range, rng: np.random.Generator) -> Drawn:
     return Drawn(lambdas, jnp.asarray(codes_at(places, count)))
 
 
-def _beside(
-    canonical: Float[Array, "E T f"], codes: Float[Array, "S c"]
-) -> Float[Array, "ES T fc"]:
-    """Every canonical episode beside every code, so that a code alone tells nothing.
-
-    Neighbours have different codes: canonical rows that stand in for those after a fault are the
-    first ones, and must not all be of one λ.
-    """
-    again = jnp.repeat(canonical, len(codes), axis=0)
-    return with_code(again, jnp.tile(codes, (len(canonical), 1))[:, None])
-
-
 def _of_slot(metrics: Metrics, slot: int) -> Metrics:
-    penalty, own = metrics.penalty[slot], metrics.naturalness_own[slot]
-    return metrics._replace(penalty=penalty, naturalness_own=own)
+    """Only the entropy is of all slots."""
+    own: Metrics = jax.tree.map(lambda each: each[slot] if each.ndim else each, metrics)
+    return own
 
 
 @partial(jax.jit, static_argnames="settings")
@@ -228,49 +241,48 @@ def _update(
     settings: AdversarySettings,
 ) -> tuple[Family, Metrics]:
     observation, action, reward, weight, features = experience
-    slots, measure, policy = len(drawn.lambdas), settings.shared_measure, family.learner.policy
+    slots, policy = len(drawn.lambdas), family.learner.policy
+    measures = SideBySide(settings.search_measure, slots)
     codes = jnp.repeat(drawn.codes, settings.episodes, axis=0)
     lambdas = jnp.broadcast_to(jnp.repeat(drawn.lambdas, settings.episodes), weight.shape)
-    canonical = _beside(canonical, drawn.codes)
     shown = jnp.broadcast_to(codes, (*weight.shape, codes.shape[-1]))
     observation = jnp.concatenate([observation, shown], axis=-1)
-    motion = Motion(with_code(features, codes), weight, observation, action)
-    penalty = measure.penalty(family.measure, canonical, motion, policy)
-    scores = measure.score(family.measure, motion.features)
+    motions = Motion(*(_apart(x, slots) for x in (features, weight, observation, action)))
+    penalty = measures.penalty(family.measures, canonical, motions, policy)
+    scores = measures.score(family.measures, motions.features)
     keys = jax.random.split(key, 3)
+    paid = _together(penalty / family.penalty_std[:, None, None])
     learner, losses = ppo_update(
         family.learner,
-        rollout_of(
-            observation,
-            action,
-            shaped_reward(lambdas, reward, penalty / family.penalty_std),
-            weight,
-        ),
+        rollout_of(observation, action, shaped_reward(lambdas, reward, paid), weight),
         keys[0],
         replace(settings.ppo, minibatch=weight.size // MINIBATCHES),
         pace_at(family.iteration, settings.iterations),
         blocks=slots,
     )
-    state, health = measure.update(
-        family.measure, canonical, motion, policy, family.iteration, keys[1:]
+    states, health = measures.update(
+        family.measures, canonical, motions, policy, family.iteration, keys[1:]
     )
-    own = jnp.full(slots, unknown()) if scores is None else _by_slot(scores < 0, weight, slots)
+    mean = jax.vmap(mean_of_sound)
     metrics = Metrics(
         mean_return=jnp.zeros(()),
         success=jnp.zeros(()),
-        penalty=_by_slot(penalty, weight, slots),
-        naturalness_own=own,
+        penalty=mean(penalty, motions.weight),
+        naturalness_own=unknown() if scores is None else mean(scores < 0, motions.weight),
         entropy=losses.entropy,
         health=health,
     )
-    return Family(learner, state, family.penalty_std, family.iteration + 1), metrics
+    return Family(learner, states, family.penalty_std, family.iteration + 1), metrics
 
 
-def _by_slot(x: Array, weight: Float[Array, "T N"], slots: int) -> Float[Array, " S"]:
-    """Mean over the sound steps of each slot's episodes."""
-    apart = (jnp.moveaxis(rows.reshape(len(rows), slots, -1), 1, 0) for rows in (x, weight))
-    means: Float[Array, " S"] = jax.vmap(mean_of_sound)(*apart)
-    return means
+def _apart(x: Shaped[Array, "T N *k"], slots: int) -> Shaped[Array, "S T n *k"]:
+    """The episodes of each slot."""
+    return jnp.moveaxis(x.reshape(len(x), slots, -1, *x.shape[2:]), 1, 0)
+
+
+def _together(x: Float[Array, "S T n"]) -> Float[Array, "T N"]:
+    """The episodes of all slots, one slot after the other."""
+    return jnp.moveaxis(x, 0, 1).reshape(x.shape[1], -1)
 
 
 def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[float, Adversary]:
@@ -278,8 +290,8 @@ def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[floa
     return {
         lambda_: Adversary(
             family.learner._replace(policy=at_code(family.learner.policy, code)),
-            ToldState(family.measure, code),
-            family.penalty_std,
+            jax.tree.map(itemgetter(range_.slot(lambda_)), family.measures),
+            family.penalty_std[range_.slot(lambda_)],
             jnp.asarray(lambda_, jnp.float32),
             family.iteration,
         )

@@ -40,8 +40,6 @@ class Rows(NamedTuple):
     values: Float[Array, "n f"]
     weight: Float[Array, " n"]
     episode: Int[Array, " n"]
-    code: Float[Array, "n c"]
-    """Whose rows they are; kernels only count among rows of the same code."""
 
 
 @dataclass(frozen=True)
@@ -53,19 +51,17 @@ class MMD:
     """
 
     references: int = REFERENCES
-    code_size: int = 0
-    """Last columns of the features that are a code (`rigid.naturalness.told`)."""
 
     def start(
         self, key: PRNGKeyArray, canonical: Float[Array, "E T f"], human: GaussianParameters
     ) -> Float[Array, ""]:
         """Median distance between canonical rows."""
         del key, human
-        return median_distance(_some(self._rows(canonical), _MEDIAN_ROWS).values)
+        return median_distance(_some(of_episodes(canonical), _MEDIAN_ROWS).values)
 
     def unit(self, state: Float[Array, ""], canonical: Float[Array, "E T f"]) -> Float[Array, ""]:
         """Deviation of the mean kernel of canonical rows with each other."""
-        rows = _some(self._rows(canonical), self.references)
+        rows = _some(of_episodes(canonical), self.references)
         return jnp.maximum(mean_kernel(rows, rows, state, same=True).std(), 1e-3)
 
     def penalty(
@@ -77,7 +73,7 @@ class MMD:
     ) -> Float[Array, "T N"]:
         """The witness at every step."""
         del policy
-        mine, natural = self._of_motion(motion), self._rows(canonical)
+        mine, natural = self._of_motion(motion), of_episodes(canonical)
         others, canonical_ = _some(mine, self.references), _some(natural, self.references)
         found = mean_kernel(mine, others, state, same=True) - mean_kernel(
             mine, canonical_, state, same=False
@@ -101,7 +97,7 @@ class MMD:
         del policy, iteration, keys
         mine, natural = (
             _some(rows, self.references)
-            for rows in (self._of_motion(motion), self._rows(canonical))
+            for rows in (self._of_motion(motion), of_episodes(canonical))
         )
         found = mmd2(mine, natural, state)
         return state, Health(found, unknown(), unknown(), unknown(), unknown())
@@ -114,11 +110,8 @@ class MMD:
         """There is no classifier."""
         del kept, features
 
-    def _rows(self, features: Float[Array, "E T f"]) -> Rows:
-        return of_episodes(features, self.code_size)
-
     def _of_motion(self, motion: Motion) -> Rows:
-        rows = self._rows(motion.features.swapaxes(0, 1))
+        rows = of_episodes(motion.features.swapaxes(0, 1))
         weight = motion.weight.T.reshape(-1)
         # What follows a fault weighs nothing, and must not spoil a sum by being huge.
         return rows._replace(values=jnp.where(weight[:, None] > 0, rows.values, 0.0), weight=weight)
@@ -151,8 +144,7 @@ def mean_kernel(
     kernels = [widest]
     for _ in range(2 * OCTAVES):
         kernels.append(kernels[-1] ** 4)
-    alike = (rows.code[:, None] == others.code[None]).all(axis=-1)
-    counted = jnp.where(alike, jnp.broadcast_to(others.weight, widest.shape), 0.0)
+    counted = jnp.broadcast_to(others.weight, widest.shape)
     if same:
         counted = jnp.where(rows.episode[:, None] == others.episode[None, :], 0.0, counted)
     total = (sum(kernels) * counted).sum(axis=1) / len(kernels)
@@ -169,14 +161,11 @@ def mmd2(adversary: Rows, canonical: Rows, median: Float[Array, ""]) -> Float[Ar
     return within[0] + within[1] - 2 * between
 
 
-def of_episodes(features: Float[Array, "E T f"], code_size: int = 0) -> Rows:
-    """Every step of sound episodes; the last `code_size` columns are a code."""
+def of_episodes(features: Float[Array, "E T f"]) -> Rows:
+    """Every step of sound episodes."""
     episodes, steps = features.shape[:2]
     own = jnp.repeat(jnp.arange(episodes), steps)
-    values, code = jnp.split(
-        features.reshape(episodes * steps, -1), [features.shape[-1] - code_size], axis=1
-    )
-    return Rows(values, jnp.ones(episodes * steps), own, code)
+    return Rows(features.reshape(episodes * steps, -1), jnp.ones(episodes * steps), own)
 
 
 def _some(rows: Rows, count: int) -> Rows:
