@@ -1,6 +1,6 @@
 # RIGID: every command of a contributor. A bare machine needs python3 (3.11 or newer) and make.
 .DEFAULT_GOAL := help
-.PHONY: help demo test check lint format bundled bench clean
+.PHONY: help demo test check lint format bundled bench bench-standard clean
 .NOTPARALLEL:
 
 PYTHON ?= python3
@@ -8,7 +8,7 @@ BIN := .venv/bin
 WEB := $(shell find web -name node_modules -prune -o -name build -prune -o -name tests -prune -o -type f -print 2>/dev/null)
 
 help: ## shows this list
-	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 10
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
 demo: .venv/.rigid ## measures the bundled robot in five minutes: runs/demo/report.html
 	$(BIN)/rigid demo
@@ -35,6 +35,9 @@ bundled: .venv/.rigid ## retrains every bundled policy and data set from its see
 
 bench: .venv/.rigid ## measures speed: benchmarks/latest.json
 	$(BIN)/rigid bench --json benchmarks/latest.json
+
+bench-standard: .venv/.rigid ## holds preset standard against preset paper: results/standard/, takes ten hours
+	$(BIN)/python -m benchmarks.standard
 
 clean: ## removes all that was built or cached; keeps runs/
 	rm -rf .venv .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache dist

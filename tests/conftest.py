@@ -10,6 +10,7 @@ _CACHE = Path(__file__).parents[1] / ".cache" / "jax"
 os.environ.setdefault("JAX_PLATFORMS", "cpu")  # The same numbers with and without a GPU.
 os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(_CACHE))
 os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.1")  # [s]
+os.environ.setdefault("PJRT_NPROC", "2")  # The same sums on any number of cores, as in commands.
 # (n,) + (n, 1) is a mistake more often than an outer sum. Dtypes are not strict: optax mixes them.
 os.environ.setdefault("JAX_NUMPY_RANK_PROMOTION", "raise")
 

@@ -16,7 +16,8 @@ from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
 from rigid.commands.progress import TerminalListener
 from rigid.compute.budget import training_speed
-from rigid.compute.run_directory import alone_in, check_place, command_line, open_run
+from rigid.compute.provenance import command_line
+from rigid.compute.run_directory import alone_in, check_place, open_run
 from rigid.files import write_atomically
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import load_policy

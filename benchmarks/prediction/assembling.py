@@ -10,8 +10,9 @@ from typing import Any, Literal
 import numpy as np
 from jaxtyping import Float
 
-from benchmarks.prediction.plan import GROUPS, HumanPlan, RobotPlan
+from benchmarks.prediction.plan import GROUPS, HumanPlan
 from benchmarks.prediction.predictors import PREDICTORS, WITH_INTERVAL, interval_of
+from benchmarks.robots import RobotPlan
 
 Target = Literal["adversarialness", "unhelped"]
 TARGETS: tuple[Target, ...] = ("adversarialness", "unhelped")

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Mapping
-from dataclasses import asdict
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import rigid
-from benchmarks.prediction.plan import EXPERT, OWN_HUMAN, TASK, HumanPlan, Plan, RobotPlan
+from benchmarks.prediction.plan import HumanPlan, Plan
+from benchmarks.robots import OWN_HUMAN, TASK, RobotPlan, check_made, make_robot, refuse_other
 from benchmarks.study import once, say
 from rigid.commands.progress import TerminalListener
 from rigid.commands.training import show_progress
 from rigid.compute.evaluation import evaluate
 from rigid.errors import UserError
-from rigid.files import first_difference
-from rigid.policies.loading import BUNDLED, load_policy, policy_hash
-from rigid.policies.native import CARD_FILE, load_card
-from rigid.robots.recipes import train_pair, train_vanilla
+from rigid.policies.loading import load_policy, policy_hash
+from rigid.policies.native import CARD_FILE
+from rigid.robots.recipes import train_pair
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import make_task
 
@@ -59,15 +56,11 @@ class Workplace:
 
     def make_robot(self, robot: RobotPlan) -> None:
         """Trains a robot for the own human, or goes on with it; a finished one is only checked."""
-        place, settings = self.robot(robot), self.plan.training_of(robot)
-        if (place / CARD_FILE).exists():
-            check_made(place, self.task, settings, robot.seed)
-            return
-        with show_progress(f"robot {robot.name}", settings.iterations) as report:
-            train_vanilla(
-                self.task, settings, pair=self._own_pair(), seed=robot.seed, out=place,
-                canonical_episodes=self.plan.preset.search_canonical, report=report,
-            )  # fmt: skip
+        make_robot(
+            robot, self.plan.training, task=self.task, out=self.robot(robot),
+            pair=self.out / "pairs" / "own",
+            canonical_episodes=self.plan.preset.search_canonical,
+        )  # fmt: skip
 
     def measure(self, robot: RobotPlan) -> Mapping[str, Any]:
         """The robot's `frontier.json`; searched first, or gone on with, where it is not there."""
@@ -103,44 +96,7 @@ class Workplace:
 
         place = self.meeting(robot, human)
         kept: dict[str, Any] = once(place, play)
-        _refuse_other(place, identity, kept["identity"])
+        refuse_other(place, identity, kept["identity"])
         if kept["adversarialness"] is None:
             raise UserError(f"{place}: in every episode the physics ran away, so nothing is known")
         return kept
-
-    def _own_pair(self) -> Path:
-        """The own human and the expert side by side, as the recipe takes them."""
-        place = self.out / "pairs" / "own"
-        for spec, agent in ((EXPERT, "robot"), (OWN_HUMAN, "human")):
-            bundled = BUNDLED / TASK / spec.removeprefix("builtin:")
-            with resources.as_file(bundled) as source:
-                shutil.copytree(source, place / agent, dirs_exist_ok=True)
-        return place
-
-
-def check_made(directory: Path, task: Task, settings: Any, seed: int) -> None:
-    """Refuses a policy that was made otherwise than the plan says.
-
-    Args:
-        directory: A finished native policy.
-        task: What it has to have been trained in.
-        settings: The dataclass of its recipe.
-        seed: Of its training.
-
-    Raises:
-        UserError: The message names the first difference.
-    """
-    card = load_card(directory)
-    mine = {"task": dict(task.describe()), "settings": asdict(settings), "seed": seed}
-    theirs = {"task": card.task, **card.provenance}
-    _refuse_other(directory, mine, theirs)
-
-
-def _refuse_other(place: Path, mine: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
-    different = first_difference(mine, theirs)
-    if different is not None:
-        name, wanted, found = different
-        raise UserError(
-            f"{place} was made with {name} {found}, but the study asks for {wanted}: "
-            "delete it, or choose another place with --out"
-        )

@@ -7,42 +7,14 @@ from dataclasses import dataclass, field, replace
 from itertools import count
 from typing import Any, Literal
 
+from benchmarks.robots import QUICK_RECIPE, RECIPE, RobotPlan
 from rigid.learning.cooptimisation import CoOptimisationSettings
 from rigid.learning.personalisation import PersonalisationSettings
 from rigid.learning.ppo import PPOSettings
 from rigid.presets import PRESETS, Preset
 
-TASK = "itch-scratching"
-OWN_HUMAN = "builtin:synthetic-human"
-"""Whom every robot is trained for and every frontier is searched from: one ruler for all."""
-EXPERT = "builtin:co-optimised"
-
 Group = Literal["pairs", "bodies", "impairments"]
 GROUPS: tuple[Group, ...] = ("pairs", "bodies", "impairments")
-_RECIPE = PersonalisationSettings()
-
-
-@dataclass(frozen=True, kw_only=True)
-class RobotPlan:
-    """How one robot is trained; all that is not said here is the recipe's."""
-
-    iterations: int
-    seed: int
-    std: tuple[float, float] = _RECIPE.std
-    """Action noise at the start and at the end of training."""
-
-    @property
-    def name(self) -> str:
-        """Its directory.
-
-        Example:
-            >>> RobotPlan(iterations=6, seed=1).name
-            'i006-s1'
-            >>> RobotPlan(iterations=50, seed=9, std=(0.5, 0.2)).name
-            'i050-s9-n0.5-0.2'
-        """
-        noise = "" if self.std == _RECIPE.std else f"-n{self.std[0]:g}-{self.std[1]:g}"
-        return f"i{self.iterations:03d}-s{self.seed}{noise}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,10 +51,6 @@ class Plan:
     """Of the search seeds of each robot, for the resamples to choose from."""
     command: str
     """Makes it all, from the root of the repository."""
-
-    def training_of(self, robot: RobotPlan) -> PersonalisationSettings:
-        """The settings of one robot's training."""
-        return replace(self.training, iterations=robot.iterations, std=robot.std)
 
     def humans(self) -> tuple[HumanPlan, ...]:
         """Everyone the robots meet, group by group."""
@@ -129,7 +97,7 @@ PLAN = Plan(
     ),
     pairs=(1, 2),
     pair_settings=CoOptimisationSettings(),
-    training=_RECIPE,
+    training=RECIPE,
     preset=replace(PRESETS["standard"], name="prediction", seeds=(0, 1, 2)),
     episodes=200,
     resamples=4000,
@@ -145,11 +113,7 @@ QUICK = Plan(
     robots=tuple(RobotPlan(iterations=length, seed=length) for length in (1, 2, 3, 4)),
     pairs=(1,),
     pair_settings=CoOptimisationSettings(iterations=2, episodes=8, ppo=_QUICK_PPO),
-    training=replace(
-        PersonalisationSettings(),
-        episodes=8,
-        ppo=replace(PersonalisationSettings().ppo, minibatch=400),
-    ),
+    training=QUICK_RECIPE,
     preset=Preset(
         name="quick",
         seeds=(0, 1),

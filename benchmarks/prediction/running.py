@@ -12,8 +12,9 @@ from benchmarks.prediction.assembling import Subject, human_rows, table_rows
 from benchmarks.prediction.associations import correlation_rows, difference_rows
 from benchmarks.prediction.drawing import draw
 from benchmarks.prediction.making import Workplace
-from benchmarks.prediction.plan import Plan, RobotPlan
+from benchmarks.prediction.plan import Plan
 from benchmarks.prediction.predictors import numbers_of, redrawn
+from benchmarks.robots import RobotPlan
 from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
 from rigid.compute.budget import FIXED_SECONDS, TRAINING_SHARE, training_speed

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from rigid.compute.measurement import Listener, measure_robot
+from rigid.compute.executors import Executor, find_executor
+from rigid.compute.listening import Listener
+from rigid.compute.measurement import measure_robot
 from rigid.compute.preparation import Subject
 from rigid.frontier.result import Frontier
 from rigid.naturalness.choice import DEFAULT_MEASURE
@@ -28,6 +30,7 @@ def measure(
     features: str = DEFAULT,
     human: str = "builtin:synthetic-human",
     canonical: str | Path | None = None,
+    executor: str | Executor = "local",
     listener: Listener | None = None,
 ) -> Frontier:
     """Measures the natural-adversarial frontier of a robot.
@@ -47,6 +50,9 @@ def measure(
             separated by commas.
         human: The synthetic human that the robot was trained for.
         canonical: A file of canonical episodes; by default the robot's own.
+        executor: Where the work is done: `local`, in this process; `ray`, on the Ray that runs on
+            this machine or else one that is started; `ray:HOST:PORT`, on a Ray cluster; or an
+            `Executor`. The numbers are the same.
         listener: Told of progress.
 
     Raises:
@@ -67,5 +73,6 @@ def measure(
         lambdas=lambdas,
         memory=memory,
         search_measure=search_measure,
+        executor=find_executor(executor) if isinstance(executor, str) else executor,
         listener=listener,
     )

@@ -6,6 +6,7 @@ Imports stand in the fixtures: pytest reads this file before jaxtyping can watch
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from functools import partial
 
 import pytest
@@ -57,3 +58,19 @@ def single_run(base):
 def single_copy(single_run, tmp_path):
     """A copy of `single_run`, to be broken."""
     return shutil.copytree(single_run.directory, tmp_path / "copy")
+
+
+@pytest.fixture
+def hasty_referees(monkeypatch):
+    """Referees of a few gradient steps, for tests that ask nothing of their verdicts."""
+    from rigid.naturalness.referee import RefereeSettings
+
+    members = RefereeSettings.members
+
+    def hasty(self, length):
+        return tuple(
+            member._replace(recipe=replace(member.recipe, block=2, blocks=1))
+            for member in members(self, length)
+        )
+
+    monkeypatch.setattr(RefereeSettings, "members", hasty)

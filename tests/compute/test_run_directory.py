@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from rigid.compute import run_directory
-from rigid.compute.run_directory import alone_in, check_place, open_run, provenance, read_settings
+from rigid.compute.provenance import provenance
+from rigid.compute.run_directory import alone_in, check_place, open_run, read_settings
 from rigid.errors import UserError
 
 ENTER = """

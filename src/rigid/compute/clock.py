@@ -55,9 +55,9 @@ class Clock:
         finally:
             self._core, self._since = self._spent(), None
 
-    def add(self, core_seconds: float) -> None:
+    def add(self, seconds: float) -> None:
         """Counts what a worker in another process took [s]."""
-        self._core += core_seconds
+        self._core += seconds
 
     def tick(self) -> None:
         """Notes the time now and then."""

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,13 +14,14 @@ from jaxtyping import Float
 
 from rigid.compute.canonical import Divided, divide_recorded, divide_synthetic
 from rigid.compute.endings import ended, measure
+from rigid.compute.identity import identity_of
 from rigid.compute.scoring import (
     Ruler,
     naturalness_of,
     play_with,
     seen_by_referee,
 )
-from rigid.data.episodes import CanonicalEpisodes, data_hash, load_episodes
+from rigid.data.episodes import CanonicalEpisodes, load_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.learning.adversary import ALONE, SHARED, AdversarySettings
@@ -32,7 +32,7 @@ from rigid.naturalness.features import DEFAULT, Features, choose_features, seen_
 from rigid.naturalness.panel import train_panel
 from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.gaussian import GaussianPolicy
-from rigid.policies.loading import BUNDLED, load_policy, policy_hash
+from rigid.policies.loading import BUNDLED, load_policy
 from rigid.policies.passive import PassivePolicy
 from rigid.policies.protocol import Policy
 from rigid.presets import Preset
@@ -127,7 +127,7 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
         env_steps=(played + _BLOCK) * task.horizon,
         steps_per_second=_BLOCK * task.horizon / spent,
         identity={
-            **_identity(task, robot, human, canonical.whole, preset, settings),
+            **identity_of(task, robot, human, canonical.whole, preset, settings),
             "features": features.label,
             "canonical_draw": subject.canonical_draw,
         },
@@ -244,31 +244,6 @@ def _canonical_block(task: Task, canonical: Divided) -> dict[str, Any]:
         "episodes_referee": len(canonical.referee),
         "source": canonical.search.source,
     }
-
-
-def _identity(
-    task: Task,
-    robot: Policy,
-    human: GaussianPolicy,
-    canonical: CanonicalEpisodes,
-    preset: Preset,
-    settings: AdversarySettings,
-) -> dict[str, Any]:
-    budget = preset.describe()
-    del budget["seeds"]  # Seeds may be added to a finished run.
-    training = asdict(settings)
-    identity = {
-        "task": dict(task.describe()),
-        "return_range": list(task.return_range or ()),
-        "robot": policy_hash(robot),
-        "human": policy_hash(human),
-        "canonical": data_hash(canonical),
-        "preset": budget,
-        "measure": training.pop("measure"),
-        "adversary": training,
-        "referee": asdict(RefereeSettings()),
-    }
-    return dict(json.loads(json.dumps(identity)))  # As JSON gives it back: lists for tuples.
 
 
 def settings_for(

@@ -14,9 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from rigid.compute.measurement import Listener, measure_robot
+from rigid.compute.listening import Listener
+from rigid.compute.measurement import measure_robot
 from rigid.compute.preparation import Subject
-from rigid.compute.run_directory import provenance
+from rigid.compute.provenance import provenance
 from rigid.compute.scoring import play_with, seen_by_referee
 from rigid.data.recording import record
 from rigid.files import json_text, write_atomically

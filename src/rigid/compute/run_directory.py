@@ -5,19 +5,14 @@ from __future__ import annotations
 import fcntl
 import json
 import os
-import platform
 import re
-import shutil
-import subprocess
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from rigid._version import __version__
+from rigid.compute.provenance import provenance, version_warnings
 from rigid.errors import UserError
 from rigid.files import (
     check_writable,
@@ -29,7 +24,6 @@ from rigid.files import (
 )
 
 SCHEMA = 1
-_LIBRARIES = ("mujoco", "jax", "jaxlib", "numpy", "optax", "scipy")
 _LEFTOVER = re.compile(r"\.settings\.json\.\d+\.tmp|\.lock")
 """What a run that was killed at its very first write leaves behind."""
 
@@ -137,7 +131,26 @@ def open_run(
             path.mkdir(parents=True, exist_ok=True)
             _write(run, identity, sorted(seeds), provenance(command))
         return OpenRun(run, tuple(sorted(seeds)), [])
+    check_same(path, identity)
     stored = read_settings(run)
+    everyone = sorted({*stored["seeds"], *seeds})
+    if everyone != stored["seeds"]:
+        with writing_to(path):
+            for outdated in (run.frontier, run.report):  # They do not cover every seed.
+                outdated.unlink(missing_ok=True)
+            _write(run, stored["identity"], everyone, stored["provenance"])
+    return OpenRun(run, tuple(everyone), version_warnings(stored["provenance"]["versions"]))
+
+
+def check_same(path: Path, identity: Mapping[str, Any]) -> None:
+    """Refuses a directory that holds another measurement; of a part of the identity, that part.
+
+    Raises:
+        UserError: It does, or its settings are damaged.
+    """
+    if not RunDirectory(path).settings.exists():
+        return
+    stored = read_settings(RunDirectory(path))
     different = first_difference(dict(stored["identity"]), dict(identity))
     if different is not None:
         name, there, here = different
@@ -145,13 +158,6 @@ def open_run(
             f"{path} holds a measurement with other settings: {name} is {_short(there)} there and "
             f"{_short(here)} here; choose another directory with --out, or the same settings"
         )
-    everyone = sorted({*stored["seeds"], *seeds})
-    if everyone != stored["seeds"]:
-        with writing_to(path):
-            for outdated in (run.frontier, run.report):  # They do not cover every seed.
-                outdated.unlink(missing_ok=True)
-            _write(run, stored["identity"], everyone, stored["provenance"])
-    return OpenRun(run, tuple(everyone), _version_warnings(stored["provenance"]["versions"]))
 
 
 def read_settings(run: RunDirectory) -> dict[str, Any]:
@@ -181,39 +187,6 @@ def _check_complete(stored: Mapping[str, Any]) -> None:
         raise TypeError
 
 
-def provenance(command: Sequence[str]) -> dict[str, Any]:
-    """Who made this with what: never part of a measurement's identity."""
-    return {
-        "rigid": __version__,
-        "command": " ".join(command),
-        "versions": {name: metadata.version(name) for name in _LIBRARIES},
-        "python": platform.python_version(),
-        "machine": f"{platform.system()} {platform.machine()}",
-        "git_commit": _git_commit(),
-    }
-
-
-def _git_commit() -> str | None:
-    """The commit of the source tree, None for an installed package."""
-    here, program = Path(__file__).resolve(), shutil.which("git")
-    if program is None:
-        return None
-
-    def git(*command: str) -> str:
-        found = subprocess.run(
-            [program, "-C", str(here.parent), *command],
-            capture_output=True, text=True, check=True, timeout=5,
-        )  # fmt: skip
-        return found.stdout.strip()
-
-    try:
-        # An environment may lie inside a repository of somebody else.
-        git("ls-files", "--error-unmatch", here.name)
-        return git("rev-parse", "HEAD")
-    except (OSError, subprocess.SubprocessError):
-        return None
-
-
 def _write(
     run: RunDirectory, identity: Mapping[str, Any], seeds: Sequence[int], made_by: Mapping[str, Any]
 ) -> None:
@@ -223,21 +196,6 @@ def _write(
     write_atomically(run.settings, json_text(settings, indent=1).encode())
 
 
-def _version_warnings(begun_with: Mapping[str, str]) -> list[str]:
-    return [
-        f"this run was begun with {name} {begun_with[name]}, now it is {metadata.version(name)}: "
-        "its numbers may differ in the last digits"
-        for name in _LIBRARIES
-        if begun_with.get(name, metadata.version(name)) != metadata.version(name)
-    ]
-
-
 def _short(value: object) -> str:
     text = str(value)
     return text if len(text) <= 40 else f"{text[:37]}…"
-
-
-def command_line() -> list[str]:
-    """What the user typed."""
-    ours = Path(sys.argv[0]).stem in {"rigid", "__main__"}  # `python -m rigid` as well.
-    return ["rigid", *sys.argv[1:]] if ours else list(sys.argv)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.prediction.assembling import Subject
-from benchmarks.prediction.plan import HumanPlan, RobotPlan
+from benchmarks.prediction.plan import HumanPlan
 from benchmarks.prediction.predictors import numbers_of, redrawn
+from benchmarks.robots import RobotPlan
 from rigid.frontier.statistics import MeasuredPoint, summarize_seeds
 
 HUMANS = (

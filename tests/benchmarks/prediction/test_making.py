@@ -9,8 +9,9 @@ from dataclasses import replace
 import pytest
 
 from benchmarks.prediction.making import Workplace
-from benchmarks.prediction.plan import PLAN, RobotPlan
+from benchmarks.prediction.plan import PLAN
 from benchmarks.prediction.running import expected_seconds
+from benchmarks.robots import RobotPlan
 from rigid.errors import UserError
 from rigid.policies.loading import BUNDLED
 from rigid.tasks.registry import make_task

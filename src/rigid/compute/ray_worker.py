@@ -1,0 +1,72 @@
+"""What a Ray worker does: one group, from what the driver sent to the bytes of its files.
+
+JAX reads the environment when it starts, so nothing may load it before the worker has set it: this
+module imports what it needs late, and an errand can be unpacked without JAX.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from rigid.errors import UserError
+
+
+@dataclass(frozen=True)
+class Errand:
+    """A group on its way to a worker."""
+
+    shared: tuple[Any]
+    """The reference to `GroupInputs`. What stands alone, Ray unpacks before the worker begins."""
+    seed: int
+    round: int
+    lambdas: tuple[float, ...]
+    begun: Mapping[str, bytes]
+    """Files that the group goes on from, by their path in the run directory."""
+    directory: str
+    """The driver's run directory, for messages."""
+    environment: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Found:
+    """A group that is done, on its way back."""
+
+    files: Mapping[str, bytes]
+    """Everything that it leaves, by its path in the run directory."""
+    core_seconds: float
+    """Processor time that it took [s]."""
+    versions: Mapping[str, str]
+    """Of the libraries that it ran with."""
+
+
+def run_errand(errand: Errand) -> Found:
+    """Runs a group in a directory of its own.
+
+    Raises:
+        UserError: A file that it goes on from is damaged.
+    """
+    os.environ.update(errand.environment)
+    from rigid.compute.clock import core_seconds
+
+    spent = core_seconds()  # Loading JAX and the task counts.
+    import ray
+
+    from rigid.compute.group import GroupPlan, run_group
+    from rigid.compute.group_files import read_group, write_group
+    from rigid.compute.provenance import versions
+
+    plan = GroupPlan(errand.seed, errand.round, errand.lambdas)
+    with tempfile.TemporaryDirectory(prefix="rigid-") as place:
+        directory = Path(place)
+        write_group(directory, plan, errand.begun)
+        try:
+            run_group(replace(ray.get(errand.shared[0]), directory=directory), plan)
+        except UserError as error:
+            raise UserError(str(error).replace(place, errand.directory)) from None
+        files = read_group(directory, plan)
+    return Found(files, core_seconds() - spent, versions())
