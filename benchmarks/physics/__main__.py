@@ -16,7 +16,7 @@ class Options(Study):
     Plays the same episodes with 0.02 s × 5, 0.01 s × 10, 0.005 s × 20 and 0.002 s × 50, at equal
     stiffness of contacts, first with policies that act in each, then with recorded targets over
     half seconds; lets the bodies swing without drive; and measures what a finer step costs. About
-    8 minutes on one free core; what is complete is kept, so the same command goes on where it was
+    10 minutes on one free core; what is complete is kept, so the same command goes on where it was
     stopped.
 
     Examples:

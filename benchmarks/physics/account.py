@@ -8,6 +8,7 @@ from typing import Any
 
 from benchmarks.paired import find, markdown
 from benchmarks.physics.account_tables import (
+    aged_table,
     closed_table,
     energy_table,
     number_text,
@@ -34,6 +35,7 @@ from benchmarks.physics.verdicts import broken, judged, remedy, rows_of, worst
 from rigid.files import write_atomically
 from rigid.tasks.itch_scratching.scene import CONTACT_TIME
 
+_RESULTS = {"return": "return", "success": "success", "counted": "counted contacts"}
 _TEMPLATE = Path(__file__).with_name("account.md")
 
 
@@ -53,7 +55,8 @@ def write_account(path: Path, plan: Plan, rows: Sequence[Row], parts: Mapping[st
         settings=_listed([one.name for one in SETTINGS]),
         verdict=headline(rows, DEFAULT), verdicts=verdict_table(rows),
         failures=failures(rows),
-        closed=closed_table(rows), windows=window_table(rows), energy=energy_table(rows),
+        closed=closed_table(rows), aged=aged_table(rows), shifts=shifts(rows),
+        windows=window_table(rows), energy=energy_table(rows),
         touched=_listed([f"{100 * part['touched']:.0f} %" for part in windows]),
         convergence=convergence(rows), braked=braked(rows),
         costs=_costs(rows), softness=softness([part["softness"] for part in windows]),
@@ -107,6 +110,19 @@ def _cure(rows: Sequence[Row], limit: Limit) -> str:
     return f"No step holds it, {FINEST.name} neither."
 
 
+def shifts(rows: Sequence[Row]) -> str:
+    """Which results of episodes the task's step moves for certain, limit or no limit."""
+    told = []
+    for number, words in _RESULTS.items():
+        for pair in PAIRS:
+            row = find(rows, part="closed", case=pair, step=DEFAULT.step, number=number)
+            if row["difference_low"] > 0 or row["difference_high"] < 0:
+                told.append(f"{words} with *{pair}* {number_text(row)}")
+    if not told:
+        return f"No return, success or number of contacts at {DEFAULT.name} can be told from those."
+    return f"Limits aside, some differences at {DEFAULT.name} are certain: {'; '.join(told)}."
+
+
 def convergence(rows: Sequence[Row]) -> str:
     """By how much the errors of half seconds fall from the task's step to the finest."""
     parts = []
@@ -118,10 +134,11 @@ def convergence(rows: Sequence[Row]) -> str:
         falls = [a["value"] / b["value"] for a, b in zip(first, last, strict=True) if b["value"]]
         if falls:
             parts.append(f"those of {words} by {min(falls):.0f} to {max(falls):.0f}")
-    times = DEFAULT.step / FINEST.step
+    times = (DEFAULT.step - WINDOW_REFERENCE.step) / (FINEST.step - WINDOW_REFERENCE.step)
     return (
-        f"From {DEFAULT.name} to {FINEST.name}, a step shorter by {times:.0f}, errors fall: "
-        f"{', '.join(parts) or 'there are none'}."
+        f"From {DEFAULT.name} to {FINEST.name} errors fall, {', '.join(parts) or 'if there are'}; "
+        f"errors in proportion to the step would by {times:.0f}, since {WINDOW_REFERENCE.name} has "
+        "its own."
     )
 
 

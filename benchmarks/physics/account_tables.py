@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from benchmarks.paired import find, markdown
 from benchmarks.physics.plan import (
+    AGED,
+    DEFAULT,
+    FINEST,
     LIMITS,
     PAIRS,
     SETTINGS,
@@ -13,7 +16,7 @@ from benchmarks.physics.plan import (
     SWINGS,
     WINDOW_REFERENCE,
 )
-from benchmarks.physics.tables import Row
+from benchmarks.physics.tables import AGED_NUMBERS, Row
 from benchmarks.physics.verdicts import worst
 
 _CLOSED = {
@@ -76,6 +79,23 @@ def verdict_table(rows: Sequence[Row]) -> str:
 def closed_table(rows: Sequence[Row]) -> str:
     """Values at the finest step, then the differences of the others."""
     return _compared(rows, "closed", [one.step for one in SETTINGS], _CLOSED)
+
+
+def aged_table(rows: Sequence[Row]) -> str:
+    """The difference of steps as a whole, by old poses, and by the rest."""
+    lines = []
+    for pair in AGED:
+        for name in AGED_NUMBERS:
+            whole, rest, age = (
+                find(rows, part=part, case=pair, step=one.step, number=name)
+                for part, one in (("closed", DEFAULT), ("aged", DEFAULT), ("aged", FINEST))
+            )
+            texts = [number_text(row) for row in (whole, age, rest)]
+            lines.append([f"*{pair}*", _CLOSED[name], *texts])
+    return markdown(
+        ["human", "", f"{DEFAULT.name} against {FINEST.name}", "by older poses", "by all else"],
+        lines,
+    )
 
 
 def window_table(rows: Sequence[Row]) -> str:

@@ -49,6 +49,10 @@ Short windows can afford it, so that they tell how good 0.002 s itself is."""
 PAIRS = ("canonical", "loud", "flailing")
 """Humans beside the bundled robot, see `people.human_named`."""
 
+AGED = ("canonical", "loud")
+"""Those who play the finest step once more, with poses as old as at the task's step: the humans
+whom the robot can help, and whose help may suffer from old poses."""
+
 Swing = Literal["free", "contact", "braked"]
 SWINGS: dict[Swing, str] = {
     "free": "no servo, no contact, no joint limit",
@@ -62,7 +66,7 @@ what any joint does in these plays (the account prints the fastest)."""
 
 @dataclass(frozen=True, kw_only=True)
 class Limit:
-    """What may lie between a step and the reference, set before the study ran. All ours."""
+    """What may lie between a step and the reference, set before the full run. All ours."""
 
     part: str
     number: str
@@ -150,7 +154,7 @@ PLAN = Plan(episodes={"canonical": 400, "loud": 600, "flailing": 1200})
 QUICK = Plan(
     episodes=dict.fromkeys(PAIRS, 4),
     block=4,
-    recorded=2,
+    recorded=6,
     swings=3,
     swing_steps=20,
     turns=2,

@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 from benchmarks.physics.people import human_named, robot
 from benchmarks.physics.plan import Plan, Setting
 from rigid.learning.rollout import Trajectories, play, policy_actor
+from rigid.tasks.itch_scratching.sensing import Contacts, Poses
 from rigid.tasks.itch_scratching.task import ItchScratching
 from rigid.tasks.itch_scratching.world import ItchScratchingWorld
 from rigid.tasks.protocol import Step
@@ -19,10 +20,22 @@ _SEEDS = 2**31
 
 
 class WatchedWorld(ItchScratchingWorld):
-    """A world that notes the deepest overlap and the fastest joint of each episode."""
+    """A world that notes the deepest overlap and the fastest joint of each episode.
 
-    def __init__(self, task: ItchScratching, batch: int) -> None:
+    Its poses may be older than the last physics step, as old as those of a coarser one: what is
+    left of a difference then is no matter of what the policies see.
+    """
+
+    def __init__(self, task: ItchScratching, batch: int, *, pose_age: int = 1) -> None:
+        """Makes `batch` worlds.
+
+        Args:
+            task: Itch scratching at some step.
+            batch: Number of worlds.
+            pose_age: Of poses and distances [physics steps]; the task has 1.
+        """
         super().__init__(task, batch, threads=1)
+        self._pose_age = pose_age
         self.penetration, self.fastest = np.zeros(batch), np.zeros(batch)
 
     def reset(self, seeds: Int[np.ndarray, " B"]) -> Step:
@@ -41,6 +54,11 @@ class WatchedWorld(ItchScratchingWorld):
         self.penetration = np.maximum(self.penetration, np.where(sound, depth, 0.0))
         self.fastest = np.maximum(self.fastest, np.where(sound, speed, 0.0))
         return result
+
+    def _score(self, action: np.ndarray, contacts: Contacts, poses: Poses) -> Step:
+        if self._pose_age > 1:
+            poses = self._sensors.poses(self._records["sensordata"][:, -self._pose_age])
+        return super()._score(action, contacts, poses)
 
 
 class Played(NamedTuple):
@@ -61,14 +79,16 @@ def task_at(setting: Setting) -> ItchScratching:
     )  # fmt: skip
 
 
-def play_block(pair: str, setting: Setting, *, count: int, seed: int, block: int) -> Played:
+def play_block(
+    pair: str, setting: Setting, *, count: int, seed: int, block: int, pose_age: int = 1
+) -> Played:
     """Plays `count` episodes; equal (`seed`, `block`) give equal starts and noise at every step.
 
     The robot acts by its mean and the human samples, as in every measurement.
     """
     starts, rng = starts_of(count, seed=seed, block=block)
     task, human = task_at(setting), human_named(pair, starts)
-    world = WatchedWorld(task, count)
+    world = WatchedWorld(task, count, pose_age=pose_age)
     snapshots: list[np.ndarray] = []
     episodes = play(
         task, world, starts, policy_actor(robot(), count, None), policy_actor(human, count, rng),
@@ -85,12 +105,24 @@ def starts_of(
     return rng.integers(_SEEDS, size=count), rng
 
 
-def play_closed(pair: str, setting: Setting, plan: Plan) -> dict[str, Any]:
-    """All episodes of a pair at one step: a list with a value for each of them, by number."""
-    blocks = [
-        _numbers(play_block(pair, setting, count=size, seed=plan.seed, block=block), plan.window)
-        for block, size in enumerate(block_sizes(plan.episodes[pair], plan.block))
-    ]
+def play_closed(
+    pair: str, setting: Setting, plan: Plan, *, like: Setting | None = None
+) -> dict[str, Any]:
+    """All episodes of a pair at one step: a list with a value for each of them, by number.
+
+    Args:
+        pair: Name of its human.
+        setting: The physics step.
+        plan: Number of episodes.
+        like: The step as old as which poses are; by default `setting`.
+    """
+    age = round((like or setting).step / setting.step)
+    blocks = []
+    for block, size in enumerate(block_sizes(plan.episodes[pair], plan.block)):
+        played = play_block(
+            pair, setting, count=size, seed=plan.seed, block=block, pose_age=age
+        )  # fmt: skip
+        blocks.append(_numbers(played, plan.window))
     return {name: np.concatenate([block[name] for block in blocks]).tolist() for name in blocks[0]}
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from benchmarks.physics.account import write_account
 from benchmarks.physics.costing import costs
 from benchmarks.physics.drawing import draw
-from benchmarks.physics.plan import PAIRS, SETTINGS, SWINGS, Plan
+from benchmarks.physics.plan import AGED, DEFAULT, FINEST, PAIRS, SETTINGS, SWINGS, Plan
 from benchmarks.physics.playing import play_closed
 from benchmarks.physics.swinging import swings
 from benchmarks.physics.tables import part_name, table
@@ -58,4 +58,6 @@ def works(plan: Plan) -> dict[str, Callable[[], Any]]:
     for pair in PAIRS:
         for one in SETTINGS:
             works[part_name("closed", pair, one)] = partial(play_closed, pair, one, plan)
+    for pair in AGED:
+        works[part_name("aged", pair)] = partial(play_closed, pair, FINEST, plan, like=DEFAULT)
     return works

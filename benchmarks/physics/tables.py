@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,8 @@ from jaxtyping import Bool, Float
 
 from benchmarks.physics.intervals import Estimate, mean, relative, share, share_difference
 from benchmarks.physics.plan import (
+    AGED,
+    DEFAULT,
     FINEST,
     PAIRS,
     SETTINGS,
@@ -27,6 +30,8 @@ Parts = Mapping[str, Any]
 
 _COLUMNS = ("value", "low", "high", "difference", "difference_low", "difference_high")
 _ABSOLUTE = ("return", "counted", "penetration")
+AGED_NUMBERS = ("return", "success", "counted")
+"""What old poses may change."""
 _RELATIVE = ("peak_force", "impulse")
 
 
@@ -45,6 +50,9 @@ def table(parts: Parts, plan: Plan) -> list[Row]:
     rows: list[Row] = []
     for pair in PAIRS:
         rows += closed_rows(pair, {one: parts[part_name("closed", pair, one)] for one in SETTINGS})
+    for pair in AGED:
+        coarse, fine = (parts[part_name("closed", pair, one)] for one in (DEFAULT, FINEST))
+        rows += aged_rows(pair, coarse, parts[part_name("aged", pair)], fine)
     for pair in PAIRS:
         rows += window_rows(pair, parts[part_name("windows", pair)])
     for swing in SWINGS:
@@ -62,10 +70,7 @@ def closed_rows(pair: str, played: Mapping[Setting, Mapping[str, Any]]) -> list[
 
     Episodes that ran away count in `faulted` alone, and their twins with them.
     """
-    columns = {
-        setting: {name: np.array(values, dtype=float) for name, values in numbers.items()}
-        for setting, numbers in played.items()
-    }
+    columns = {setting: _arrays(numbers) for setting, numbers in played.items()}
     reference = columns[FINEST]
     rows = []
     for setting, mine in columns.items():
@@ -104,6 +109,29 @@ def _closed(
     return rows
 
 
+def aged_rows(
+    pair: str, coarse: Mapping[str, Any], aged: Mapping[str, Any], fine: Mapping[str, Any]
+) -> list[Row]:
+    """A difference of steps in two: old poses at the finest step, and all the rest.
+
+    Args:
+        pair: Name of the human.
+        coarse: Episodes at the task's step.
+        aged: The same at the finest step with poses as old as there.
+        fine: The same at the finest step.
+    """
+    played = [_arrays(one) for one in (coarse, aged, fine)]
+    sound = np.all([one["faulted"] == 0 for one in played], axis=0)
+    rows = []
+    for setting, (mine, reference) in zip((DEFAULT, FINEST), pairwise(played), strict=True):
+        for name in AGED_NUMBERS:
+            x, y = mine[name][sound], reference[name][sound]
+            difference = share_difference(x, y) if name == "success" else mean(x - y)
+            value = share(x) if name == "success" else mean(x)
+            rows.append(_row("aged", pair, setting, name, int(sound.sum()), value, difference))
+    return rows
+
+
 def energy_rows(swing: str, part: Mapping[str, Mapping[str, list[float]]]) -> list[Row]:
     """Swings of one kind: mean gain of energy, and the worst swing's."""
     rows = []
@@ -122,10 +150,7 @@ def window_rows(pair: str, part: Mapping[str, Any]) -> list[Row]:
     Forces and overlaps are those of windows with touch, as means over these; episodes without
     one tell nothing about them.
     """
-    by_setting = {
-        name: {number: np.array(values, dtype=float) for number, values in numbers.items()}
-        for name, numbers in part["settings"].items()
-    }
+    by_setting = {name: _arrays(numbers) for name, numbers in part["settings"].items()}
     reference = by_setting[WINDOW_REFERENCE.name]
     rows = []
     for setting in (*SETTINGS, WINDOW_REFERENCE):
@@ -160,6 +185,10 @@ def _window(
         for name in ("angles", "angles_rad", "features"):
             rows.append(_row("windows", pair, setting, name, len(mine[name]), mean(mine[name])))
     return rows
+
+
+def _arrays(numbers: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    return {name: np.array(values, dtype=float) for name, values in numbers.items()}
 
 
 def _per_window(sums: Float[np.ndarray, " n"], counts: Float[np.ndarray, " n"]) -> Estimate:

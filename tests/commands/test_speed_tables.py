@@ -81,6 +81,7 @@ def test_assistive_gym_is_said_to_be_measured_elsewhere():
 
 GROWTH_ROW = {
     "axis": "seeds", "sizes": [1, 2], "peak_mb": [600.0, 700.0], "seconds": [5.0, 9.0],
+    "compiling_mb": [900.0, 910.0],
     "mb_per_unit": 100.0, "seconds_per_unit": 4.0, "memory_exponent": 0.22, "time_exponent": 0.85,
     "must_be_flat": True, "is_flat": False,
 }  # fmt: skip

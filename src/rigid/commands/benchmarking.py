@@ -32,7 +32,7 @@ class BenchCommand:
     assistive_gym: bool = False
     """Also measure steps per core, beside figures of Assistive Gym that were measured elsewhere."""
     growth: bool = False
-    """Also measure how memory and time grow, and what twice the λ cost; as long again."""
+    """Also measure how memory and time grow, and what twice the λ cost; about 20 minutes more."""
     repeats: int = 7
     """Turns of which medians are taken."""
 

@@ -124,12 +124,13 @@ def growth_table(growth: Mapping[str, Any]) -> str:
     """What grows with what, and what twice the λ cost."""
     base = ", ".join(f"{name} {size}" for name, size in growth["base"].items())
     lines = ["", f"growth of a small measurement; what does not double stays at {base}", ""]
-    lines.append(f"{'':12}{'size':>6}{'peak MB':>10}{'s':>9}")
+    lines.append(f"{'':12}{'size':>6}{'peak MB':>10}{'compiling':>11}{'s':>9}")
     for row in growth["rows"]:
         for number, size in enumerate(row["sizes"]):
             name = row["axis"] if number == 0 else ""
-            memory, seconds = row["peak_mb"][number], row["seconds"][number]
-            lines.append(f"{name:12}{size:6}{memory:10.1f}{seconds:9.2f}")
+            memory, compiling = row["peak_mb"][number], row["compiling_mb"][number]
+            seconds = row["seconds"][number]
+            lines.append(f"{name:12}{size:6}{memory:10.1f}{compiling:11.1f}{seconds:9.2f}")
         lines.append(f"{'':12}{_slopes(row)}")
     for name, row in growth["twice_the_lambdas"].items():
         lines.append(_twice(name, row))

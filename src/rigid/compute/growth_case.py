@@ -1,6 +1,6 @@
 """One small measurement in a process of its own: its peak memory and its time.
 
-python -m rigid.compute.growth_case '{"seeds": 2}'
+python -m rigid.compute.growth_case '{"seeds": 2}' 2
 """
 
 from __future__ import annotations
@@ -51,25 +51,21 @@ class Case:
         )  # fmt: skip
 
 
-def run_case(case: Case, subject: Subject | None = None) -> dict[str, float]:
-    """Measures twice in this process, and says what the first took of memory, the second of time.
+def run_case(case: Case, times: int) -> dict[str, float]:
+    """Measures the bundled robot so many times in this process.
 
-    The first compiles, which takes as long in a small case as in a large one.
-
-    Args:
-        case: How much.
-        subject: What is measured; by default the bundled robot, in episodes of the case's horizon.
+    What the first measurement reads or compiles takes as long in a small case as in a large one.
 
     Returns:
-        `peak_mb`, largest resident memory of this process so far [MB], and `seconds`.
+        `peak_mb`, largest resident memory of this process after the first one [MB], and `seconds`
+        of the last one.
     """
-    chosen = subject or _itch_scratching(case.horizon)
-    measure_case(case, chosen)
+    subject = _itch_scratching(case.horizon)
+    seconds = timed(lambda: measure_case(case, subject))
     peak = peak_memory()
-    return {
-        "peak_mb": round(peak, 1),
-        "seconds": round(timed(lambda: measure_case(case, chosen)), 2),
-    }
+    for _ in range(times - 1):
+        seconds = timed(lambda: measure_case(case, subject))
+    return {"peak_mb": round(peak, 1), "seconds": round(seconds, 2)}
 
 
 def _itch_scratching(horizon: int) -> Subject:
@@ -105,4 +101,5 @@ def measure_case(case: Case, subject: Subject) -> list[Row]:
 
 
 if __name__ == "__main__":
-    sys.stdout.write(json.dumps(run_case(Case(**json.loads(sys.argv[1])))) + "\n")
+    result = run_case(Case(**json.loads(sys.argv[1])), int(sys.argv[2]))
+    sys.stdout.write(json.dumps(result) + "\n")

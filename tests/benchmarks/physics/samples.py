@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.physics.plan import PAIRS, QUICK, SETTINGS, SPEEDS, SWINGS, WINDOW_REFERENCE
+from benchmarks.physics.plan import (
+    AGED,
+    FINEST,
+    PAIRS,
+    QUICK,
+    SETTINGS,
+    SPEEDS,
+    SWINGS,
+    WINDOW_REFERENCE,
+)
 from benchmarks.physics.tables import part_name
 
 EPISODES = 500
@@ -58,6 +67,8 @@ def parts(**closed_shifts):
             "softness": {one.name: softness() for one in everything},
             "touched": 0.5,
         }
+    for pair in AGED:
+        made[part_name("aged", pair)] = closed(FINEST.step, shift=closed_shifts.get(pair, 0.0) / 4)
     for swing in SWINGS:
         gain = 2.0 if swing == "free" else 0.0
         made[part_name("energy", swing)] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from benchmarks.paired import find
-from benchmarks.physics.account import failure, headline, softness, write_account
+from benchmarks.physics.account import failure, headline, shifts, softness, write_account
 from benchmarks.physics.drawing import draw
 from benchmarks.physics.plan import DEFAULT, FINEST, LIMITS, SETTINGS, SWINGS
 from benchmarks.physics.tables import closed_rows, part_name, table
@@ -61,6 +61,21 @@ def test_an_episode_that_ran_away_counts_as_fault_and_nowhere_else():
     assert (mine["return"]["n"], mine["faulted"]["n"]) == (9, 10)
     assert mine["return"]["difference"] == pytest.approx(0.0)
     assert mine["faulted"]["value"] == pytest.approx(0.1)
+
+
+def test_a_difference_is_parted_into_that_of_old_poses_and_the_rest():
+    moved = table(samples.parts(loud=20.0), samples.PLAN)
+    rest, age = (
+        find(moved, part="aged", case="loud", step=one.step, number="return")["difference"]
+        for one in (DEFAULT, FINEST)
+    )
+    assert (rest, age) == pytest.approx((15.0, 5.0))
+
+
+def test_differences_within_a_limit_are_named_where_they_are_certain(rows):
+    moved = table(samples.parts(loud=5.0), samples.PLAN)
+    assert "are certain: return with *loud* +5.0 [+5.0, +5.0]" in shifts(moved)
+    assert shifts(rows).startswith("No return, success or number of contacts")
 
 
 def test_episodes_without_touch_say_nothing_about_forces(rows):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.physics.people import LOUD, Flailing, human_named
-from benchmarks.physics.plan import DEFAULT, LIMITS, SETTINGS
+from benchmarks.physics.plan import DEFAULT, LIMITS, SETTINGS, Setting
 from benchmarks.physics.playing import WatchedWorld, play_block, starts_of, task_at
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
 
@@ -76,6 +76,20 @@ def test_the_deepest_overlap_and_the_fastest_joint_are_kept_until_a_reset():
     np.testing.assert_array_equal(seen[-1], seen[0])  # The servos brake.
     world.reset(np.arange(2))
     assert not world.fastest.any()
+
+
+def test_old_poses_are_those_of_a_coarser_step_and_angles_stay_current():
+    fine = Setting(0.005)
+    fresh, old = (WatchedWorld(task_at(fine), 1, pose_age=age) for age in (1, 4))
+    for world in (fresh, old):
+        world.reset(np.arange(1))
+    seen = [world.step(np.ones((1, 7)), np.ones((1, 10))) for world in (fresh, old)]
+    sensors, data = old._sensors, old._records["sensordata"]
+    # Entry s is the state before physics step s: the fourth last is 0.02 s old.
+    expected = sensors.poses(data[:, -4]).tip - task_at(fine).chest
+    np.testing.assert_allclose(seen[1].human_observation[:, :3], expected, rtol=1e-6)
+    assert np.abs(seen[0].human_observation[:, :3] - expected).max() > 1e-5
+    np.testing.assert_array_equal(seen[0].features, seen[1].features)
 
 
 def test_nothing_is_noted_of_a_step_that_ran_away():
