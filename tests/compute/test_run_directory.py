@@ -200,5 +200,5 @@ def test_provenance_names_versions_machine_and_command():
 
 
 def test_a_repository_around_an_installed_package_is_not_its_commit(monkeypatch, tmp_path):
-    monkeypatch.setattr(run_directory, "__file__", str(tmp_path / "run_directory.py"))
+    monkeypatch.setattr("rigid.compute.provenance.__file__", str(tmp_path / "provenance.py"))
     assert provenance([])["git_commit"] is None
