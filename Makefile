@@ -10,12 +10,12 @@ WEB := $(shell find web -name node_modules -prune -o -name build -prune -o -name
 help: ## shows this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
-demo: .venv/.rigid ## measures the bundled robot in five minutes: runs/demo/report.html
+demo: .venv/.rigid ## measures the bundled robot in three minutes: runs/demo/report.html
 	$(BIN)/rigid demo
 
 test: .venv/.dev web/node_modules/.package-lock.json ## the fast suite, Python and web
 	@command -v chromium >/dev/null || { $(call apt,chromium); }
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses auto --dist loadfile
 	$(npm) test
 
 check: lint test ## what continuous integration runs: lint, format, types, tests

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rigid.compute.preparation import settings_for
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.naturalness.choice import DEFAULT_MEASURE
 from rigid.presets import Preset
 

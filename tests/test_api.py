@@ -76,7 +76,7 @@ def test_bad_input_is_a_users_error_and_writes_nothing(tmp_path, options, messag
 
 
 def test_presets_train_for_as_many_steps_as_the_documents_say():
-    documented = {"demo": 1_152_000, "standard": 4_608_000, "paper": 31_104_000}
+    documented = {"demo": 576_000, "standard": 4_608_000, "paper": 31_104_000}
     assert {name: PRESETS[name].env_steps(100) for name in documented} == documented
 
 

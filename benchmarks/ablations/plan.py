@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from benchmarks.short_search import EPISODES, ITERATIONS, QUICK_PRESET, short_settings
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.naturalness.features import DEFAULT, OBSERVATION, OBSERVATION_ACTION
 from rigid.presets import Preset
 

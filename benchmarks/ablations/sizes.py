@@ -34,7 +34,8 @@ from rigid.naturalness.lsgan import (
     score,
     update_discriminator,
 )
-from rigid.naturalness.panel import rate, split_in_folds
+from rigid.naturalness.panel import split_in_folds
+from rigid.naturalness.rates import rate
 from rigid.naturalness.referee import HEADLINE_KAPPA, RefereeSettings, log_ratio
 from rigid.naturalness.standardise import canonical_scale, standardise
 from rigid.naturalness.views import Episodes

@@ -16,11 +16,13 @@ from benchmarks.study import once
 from rigid.compute.convergence import convergence
 from rigid.compute.endings import measure
 from rigid.compute.group import GroupInputs, GroupPlan, train_group
-from rigid.compute.preparation import Prepared, Subject, prepare
+from rigid.compute.preparation import Prepared, prepare
 from rigid.compute.scoring import play_with
+from rigid.compute.subject import Subject
 from rigid.learning.group_play import group_actor, phase_rng
 from rigid.naturalness.features import DEFAULT
-from rigid.naturalness.panel import AXIS, LEVELS, Fold, Panel, Rate, naturalness, train_panel
+from rigid.naturalness.panel import AXIS, LEVELS, Fold, Panel, naturalness, train_panel
+from rigid.naturalness.rates import Rate
 from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.gaussian import GaussianParameters
 from rigid.tasks.itch_scratching.task import ItchScratching

@@ -18,7 +18,7 @@ from benchmarks.coverage.plan import Plan
 from benchmarks.study import say
 from rigid.commands.parsing import spoken
 from rigid.compute.measurement import measure_robot
-from rigid.compute.preparation import Subject
+from rigid.compute.subject import Subject
 from rigid.frontier.comparison import HEADLINE_LEVEL, numbers_of
 from rigid.frontier.result import Frontier
 from rigid.presets import Preset

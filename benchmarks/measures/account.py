@@ -21,7 +21,7 @@ from benchmarks.measures.summary import MARGIN, NUMBERS, together_name, twice_na
 from benchmarks.paired import Row, difference_text, find, markdown, sign, value_text
 from benchmarks.short_search import short_settings
 from rigid.compute.preparation import settings_for
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 
 _TEMPLATE = Path(__file__).with_name("account.md")
 _SIDES = {1: "finds more than", -1: "finds less than", 0: "cannot be told from"}

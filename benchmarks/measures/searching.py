@@ -17,7 +17,7 @@ from rigid.commands.parsing import spoken
 from rigid.commands.progress import TerminalListener
 from rigid.compute.budget import training_speed
 from rigid.compute.measurement import measure_robot
-from rigid.compute.preparation import Subject
+from rigid.compute.subject import Subject
 from rigid.frontier.result import FILE, Frontier, load_frontier, measured_points
 from rigid.frontier.statistics import sound_points_by_seed
 from rigid.tasks.registry import make_task

@@ -14,7 +14,7 @@ from mujoco.batch import Batch
 
 from benchmarks.physics.plan import DEFAULT, SETTINGS, WINDOW_REFERENCE, Plan, Setting
 from benchmarks.physics.playing import play_block, task_at
-from rigid.compute.preparation import CANONICAL_FILE
+from rigid.compute.subject import CANONICAL_FILE
 from rigid.data.episodes import load_episodes
 from rigid.naturalness.standardise import canonical_scale
 from rigid.policies.loading import BUNDLED

@@ -14,7 +14,7 @@ from benchmarks.planted.diversity import diversity
 from benchmarks.planted.people import fit_policy
 from benchmarks.planted.plan import Plan
 from rigid.frontier.largest_jump import first_lambdas
-from rigid.learning.adversary import SHARED, AdversarySettings
+from rigid.learning.adversary_settings import SHARED, AdversarySettings
 from rigid.learning.group_play import Opponent
 from rigid.learning.searching import search_for
 from rigid.policies.gaussian import GaussianPolicy

@@ -13,7 +13,7 @@ from rigid.commands.parsing import spoken
 from rigid.commands.progress import TerminalListener
 from rigid.compute.budget import FIXED_SECONDS, training_speed
 from rigid.compute.measurement import measure_robot
-from rigid.compute.preparation import Subject
+from rigid.compute.subject import Subject
 from rigid.frontier.comparison import Number, numbers_of
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from rigid.compute.executors import Executor, find_executor
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
-from rigid.compute.preparation import Subject
+from rigid.compute.subject import Subject
 from rigid.frontier.result import Frontier
 from rigid.naturalness.choice import DEFAULT_MEASURE
 from rigid.naturalness.features import DEFAULT
@@ -50,7 +50,7 @@ def measure(
             separated by commas.
         human: The synthetic human that the robot was trained for.
         canonical: A file of canonical episodes; by default the robot's own.
-        executor: Where the work is done: `local`, in this process; `ray`, on the Ray that runs on
+        executor: Where the work is done: `local`, on this machine; `ray`, on the Ray that runs on
             this machine or else one that is started; `ray:HOST:PORT`, on a Ray cluster; or an
             `Executor`. The numbers are the same.
         listener: Told of progress.

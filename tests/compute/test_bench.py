@@ -43,7 +43,7 @@ def test_the_bare_physics_goes_through_the_same_motion():
     for _ in range(20):
         world.step(*random_actions(rng, 6))
         motion.append(world.snapshot())
-    end = step_through(task, np.stack(motion))
+    end = step_through(task, np.stack(motion), threads=1)
     # Snapshots are of single precision.
     np.testing.assert_allclose(end, motion[-1][:, : task.model.nq], atol=1e-3)
 

@@ -17,7 +17,7 @@ from rigid.compute.group import GroupInputs
 from rigid.compute.referee_files import save_panel
 from rigid.compute.scoring import Ruler
 from rigid.errors import UserError
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.group_play import Opponent, canonical_motion
 from rigid.naturalness.lsgan import DiscriminatorSettings
 from rigid.naturalness.noise import NOISE_LEVELS

@@ -45,8 +45,13 @@ def history(returns, accuracy=1.0):
         ([-0.5 * number for number in range(50)], 1.0, False),
         ([-5.0] * 50, 0.4, False),
         ([-5.0, -5.0], 1.0, True),
+        ([-5.0], 1.0, False),
     ],
-    ids=["at rest", "still falling", "discriminator collapsed", "two iterations"],
+    ids=["at rest", "still falling", "discriminator collapsed", "two iterations", "one"],
 )
 def test_training_has_converged_when_its_end_is_at_rest(returns, accuracy, converged):
     assert convergence(history(returns, accuracy))["converged"] is converged
+
+
+def test_a_single_iteration_has_no_drift():
+    assert convergence(history([-5.0]))["return_drift"] is None

@@ -10,7 +10,8 @@ from rigid.compute.group import GroupInputs
 from rigid.compute.growth import AXES, Axis, Cost, in_fresh_process, measured_growth, summed_up
 from rigid.compute.growth_case import Case, measure_case
 from rigid.compute.growth_lambdas import ratio_of, time_of_twice_the_lambdas
-from rigid.compute.preparation import Subject, prepare, settings_for
+from rigid.compute.preparation import prepare, settings_for
+from rigid.compute.subject import Subject
 from rigid.learning.conditioned import Sharing
 from rigid.presets import PRESETS
 from tests.compute.tiny import TINY, FilmedReach

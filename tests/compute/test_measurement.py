@@ -14,10 +14,9 @@ from rigid.data.episodes import data_hash, save_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.frontier.result import load_frontier
-from rigid.policies.native import load_native, save_policy
+from rigid.policies.native import load_native
 from tests.compute.schema import FrontierFile
 from tests.compute.tiny import TINY, FilmedReach, Notes, without_times
-from tests.toys import untrained
 
 IDS = [f"s{seed}-{member}" for seed in (0, 1) for member in ("r1-l1", "r1-l2", "r2-l1")]
 
@@ -176,19 +175,6 @@ def test_a_task_without_a_range_is_refused_before_anything_is_written(measure, t
     with pytest.raises(UserError, match=r"'toy-reach' has no range of adversarialness: set its"):
         measure(tmp_path / "run", task=FilmedReach(return_range=None))
     assert not (tmp_path / "run").exists()
-
-
-def test_a_human_without_noise_cannot_be_searched_from(measure, tmp_path):
-    with pytest.raises(UserError, match=r"'builtin:passive' has no action noise to search with"):
-        measure(tmp_path / "run", human="builtin:passive")
-
-
-def test_a_human_with_memory_cannot_be_searched_from(measure, tmp_path):
-    task = FilmedReach()
-    human = untrained(task.human, memory=3)
-    save_policy(human, tmp_path / "h", agent="human", task=task.describe(), provenance={})
-    with pytest.raises(UserError, match=r"sees its last 3 observations, but the search starts"):
-        measure(tmp_path / "run", human=str(tmp_path / "h"))
 
 
 def test_episodes_that_lie_beside_the_robot_are_its_canonical_ones(measure, base, tmp_path):

@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 from rigid.compute.measurement import measure_robot
-from rigid.compute.preparation import Subject, settings_for
+from rigid.compute.preparation import settings_for
+from rigid.compute.subject import Subject
 from rigid.errors import UserError
 from tests.compute.tiny import TINY, FilmedReach, store_pair
 

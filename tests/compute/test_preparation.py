@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rigid.compute.preparation import Subject, prepare, settings_for
+from rigid.compute.preparation import prepare, settings_for
+from rigid.compute.subject import Subject
 from rigid.data.episodes import data_hash, save_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError

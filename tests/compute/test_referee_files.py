@@ -10,7 +10,8 @@ import pytest
 
 from rigid.compute.referee_files import load_panel, rejudge, save_panel
 from rigid.errors import UserError
-from rigid.naturalness.panel import Jury, Rate, naturalness
+from rigid.naturalness.panel import Jury, naturalness
+from rigid.naturalness.rates import Rate
 from rigid.naturalness.referee import Referee
 from rigid.naturalness.standardise import Scale
 from rigid.naturalness.views import all_sound

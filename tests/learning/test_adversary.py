@@ -13,13 +13,13 @@ import pytest
 from rigid.compute.checkpoint import load_tree, save_tree
 from rigid.learning import adversary as adversaries
 from rigid.learning.adversary import (
-    AdversarySettings,
     Experience,
     pace_at,
     shaped_reward,
     start_adversary,
     train_iteration,
 )
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.group_play import Opponent, canonical_motion, group_actor, phase_rng
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import play, policy_actor

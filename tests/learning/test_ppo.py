@@ -10,20 +10,12 @@ import numpy as np
 import pytest
 
 from rigid.learning.advantages import standardised
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.best_response import ResponseSettings
 from rigid.learning.cooptimisation import CoOptimisationSettings
+from rigid.learning.learner import Rollout, critic_values, trainable_of, with_noise
 from rigid.learning.personalisation import PersonalisationSettings
-from rigid.learning.ppo import (
-    PPOSettings,
-    Rollout,
-    _loss,
-    _trainable,
-    critic_values,
-    init_learner,
-    ppo_update,
-    with_noise,
-)
+from rigid.learning.ppo import PPOSettings, _loss, init_learner, ppo_update
 from rigid.policies.gaussian import GaussianPolicy
 from tests.learning.reach import bitwise_equal
 
@@ -182,7 +174,7 @@ def test_lost_samples_count_in_no_mean_of_the_loss():
     }  # fmt: skip
     batch["weight"] = jnp.tile(jnp.array([1.0, 0.0]), 4)
     sound = {name: values[::2] for name, values in batch.items()}
-    trainable = _trainable(learner.policy, learner.critic)
+    trainable = trainable_of(learner.policy, learner.critic)
     found, expected = (_loss(trainable, rows, PPOSettings())[1] for rows in (batch, sound))
     for name in ("policy", "value", "cloning"):
         assert getattr(found, name) == pytest.approx(float(getattr(expected, name)), rel=1e-5), name

@@ -10,18 +10,13 @@ import numpy as np
 import pytest
 
 from rigid.compute.checkpoint import load_tree, save_tree
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.conditioned import Sharing
 from rigid.learning.group_play import Opponent, play_group
 from rigid.learning.ppo import PPOSettings
+from rigid.learning.ranges import ranges_of
 from rigid.learning.rollout import play, policy_actor
-from rigid.learning.shared import (
-    Range,
-    family_iteration,
-    members,
-    ranges_of,
-    start_family,
-)
+from rigid.learning.shared import family_iteration, members, start_family
 from rigid.naturalness.lsgan import DiscriminatorSettings
 from rigid.policies.gaussian import GaussianPolicy, mean_action
 from rigid.policies.loading import load_policy
@@ -123,12 +118,6 @@ def test_the_wild_family_starts_from_random_weights_and_the_natural_one_at_the_h
     assert np.abs(wild.network[0]["w"][:3] - HUMAN.network[0]["w"]).max() > 0.1
 
 
-def test_each_family_trains_beyond_the_lambdas_that_were_asked_for():
-    wild, natural = ranges_of((1.0, 0.0, 0.1, INF), FEW)
-    assert wild == Range((0.0, 0.1, FEW.wild_to), (0.0, 0.1), 2, natural=False)
-    assert natural == Range((FEW.natural_from, 1.0, INF), (1.0, INF), 3, natural=True)
-
-
 def test_a_lambda_that_both_families_train_at_is_served_by_the_one_it_belongs_to(reach):
     """0.1 is wild, and the natural family trains at it for the sake of others."""
     settings = replace(ALONE, sharing=FEW, episodes=8)
@@ -138,11 +127,6 @@ def test_a_lambda_that_both_families_train_at_is_served_by_the_one_it_belongs_to
     np.testing.assert_array_equal(
         found[0.1].learner.policy.network[1]["w"], families[0].learner.policy.network[1]["w"]
     )
-
-
-def test_no_family_is_made_where_no_lambda_belongs():
-    assert [each.natural for each in ranges_of((1.0, 2.0), FEW)] == [True]
-    assert [each.natural for each in ranges_of((0.0,), FEW)] == [False]
 
 
 @pytest.mark.parametrize("measure", ["lsgan", "kl", "mmd", "temporal", "ensemble"])

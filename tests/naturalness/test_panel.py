@@ -1,4 +1,4 @@
-"""Levels, folds and standard errors, on laws of known overlap."""
+"""Levels and folds, on laws of known overlap."""
 
 from __future__ import annotations
 
@@ -8,14 +8,7 @@ import pytest
 
 from rigid.naturalness.gates import exact_overlap
 from rigid.naturalness.logistic import Side, fit, padded
-from rigid.naturalness.panel import (
-    LEVEL_NAMES,
-    Fold,
-    naturalness,
-    rate,
-    split_in_folds,
-    train_panel,
-)
+from rigid.naturalness.panel import LEVEL_NAMES, Fold, naturalness, split_in_folds, train_panel
 from rigid.naturalness.referee import RefereeSettings
 from rigid.naturalness.views import Episodes, all_sound
 
@@ -132,28 +125,3 @@ def test_folds_without_three_uses_are_refused(episodes, folds):
     message = rf"{episodes} episodes cannot be split in {folds} folds of three uses"
     with pytest.raises(ValueError, match=message):
         split_in_folds(np.zeros((episodes, 5, 1)), folds)
-
-
-def test_the_error_grows_when_the_steps_of_an_episode_agree():
-    """Ten episodes of 100 steps: as ten throws of a coin, not as a thousand."""
-    rng = np.random.default_rng(0)
-    agreeing = np.repeat(np.arange(10)[:, None] % 2, 100, axis=1)
-    loose = rng.permutation(agreeing.ravel()).reshape(10, 100)
-    every = np.ones((10, 100), dtype=bool)
-    assert rate(agreeing, every).se == pytest.approx(0.5 / 3)
-    assert rate(loose, every).se < 0.03
-
-
-def test_the_error_covers_the_truth_as_often_as_it_says():
-    rng = np.random.default_rng(0)
-    every = np.ones((40, 10), dtype=bool)
-    hits = 0
-    for _ in range(400):
-        chance = rng.beta(2, 2, (40, 1))
-        found = rate(rng.random((40, 10)) < chance, every)
-        hits += abs(found.value - 0.5) < 1.96 * found.se
-    assert 0.91 <= hits / 400 <= 0.98
-
-
-def test_one_episode_has_no_error():
-    assert rate(np.ones((1, 4)), np.ones((1, 4), dtype=bool)) == (1.0, None)

@@ -16,7 +16,7 @@ from rigid.commands.parsing import parse_seeds
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
-    from rigid.compute.referee_gates import Verdict
+    from rigid.compute.verdict import Verdict
 
 _shown_as = tyro.conf.arg
 
@@ -53,8 +53,8 @@ class RefereeCommand:
             raise UserError("rigid referee has nothing to do: give --check")
         seeds = parse_seeds(self.seeds)
         from rigid.commands.progress import TerminalListener
-        from rigid.compute.preparation import Subject
         from rigid.compute.referee_gates import check_referee
+        from rigid.compute.subject import Subject
         from rigid.presets import find_preset
         from rigid.tasks.registry import make_task
 

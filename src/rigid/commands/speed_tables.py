@@ -69,7 +69,7 @@ def _makers(run: Mapping[str, Any]) -> dict[str, Any]:
 def _where(found: Mapping[str, Any]) -> str:
     machine = found["machine"]
     return (
-        f"itch scratching, {_physics(found)}; {machine['processor']}, {found['threads']} threads, "
+        f"itch scratching, {_physics(found)}; {machine['processor']}, threads: {found['threads']}, "
         f"load {machine['load']}; medians of {found['repeats']} turns [quartiles]"
     )
 

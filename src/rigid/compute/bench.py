@@ -2,7 +2,8 @@
 
 Physics is the same scene in MuJoCo's own batch, driven through the same motion with ready targets,
 so that it has the same contacts; training is everything that one iteration of a group of
-adversaries takes. Both, their parts, and whatever else is timed often go by turns.
+adversaries takes. Both have one thread, as a worker of a measurement has. They, their parts, and
+whatever else is timed often go by turns.
 """
 
 from __future__ import annotations
@@ -24,8 +25,9 @@ from rigid._version import __version__
 from rigid.compute.clock import Clock
 from rigid.compute.group import GroupInputs, GroupPlan, run_group
 from rigid.compute.iteration_parts import Iteration
-from rigid.compute.preparation import Subject, prepare, settings_for
+from rigid.compute.preparation import prepare, settings_for
 from rigid.compute.scoring import play_with, seen_by_referee
+from rigid.compute.subject import Subject
 from rigid.compute.timing import in_turns, spread_of, timed
 from rigid.errors import UserError
 from rigid.frontier.largest_jump import first_lambdas
@@ -35,6 +37,8 @@ from rigid.naturalness.panel import train_panels
 from rigid.presets import PRESETS, Preset
 from rigid.tasks.itch_scratching.task import ItchScratching
 
+THREADS = 1
+"""Of what is timed: as many as a group has in a measurement with a process for each core."""
 GROUPS_OF_PAPER = 9
 """Three seeds of three rounds: what one full round is multiplied by."""
 SMALL = Preset(
@@ -49,7 +53,9 @@ def group_inputs(preset: Preset, directory: Path) -> GroupInputs:
     settings = settings_for(preset)
     subject = Subject(ItchScratching(), "builtin:vanilla")
     prepared = prepare(subject, preset, settings)
-    return GroupInputs(subject.task, prepared.opponent, prepared.ruler, preset, settings, directory)
+    return GroupInputs(
+        subject.task, prepared.opponent, prepared.ruler, preset, settings, directory, THREADS
+    )
 
 
 def figures_in_turns(repeats: int) -> dict[str, Any]:
@@ -196,7 +202,6 @@ def paper_core_hours() -> dict[str, float]:
         spent = clock.read()
     return {
         "paper_core_hours": round(GROUPS_OF_PAPER * spent["core_seconds"] / 3600, 3),
-        "paper_wall_hours": round(GROUPS_OF_PAPER * spent["wall_seconds"] / 3600, 3),
     }
 
 
@@ -215,7 +220,7 @@ def machine() -> dict[str, Any]:
     task = ItchScratching()
     return {
         "rigid": __version__,
-        "threads": len(os.sched_getaffinity(0)),
+        "threads": THREADS,
         "physics_step": task.parameters.physics_step,
         "substeps": task.parameters.substeps,
         "machine": {

@@ -14,15 +14,15 @@ def convergence(history: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     `converged`: the return moved by less than one standard deviation of its iteration-to-iteration
     noise between the two halves of that fifth, and the discriminator still errs on some adversary
     rows or none of them look canonical (it neither collapsed nor froze); a measure without a
-    discriminator has none that could.
+    discriminator has none that could. A single iteration shows no rest, and its drift is None.
     """
     window = max(len(history) // 5, 2)
     tail = history[-window:]
     returns = np.array([row["mean_return"] for row in tail])
     half = len(returns) // 2
-    drift = float(returns[half:].mean() - returns[:half].mean())
-    noise = float(np.abs(np.diff(returns)).mean())
-    rested = abs(drift) <= max(noise, 1e-9)
+    drift = float(returns[half:].mean() - returns[:half].mean()) if half else None
+    noise = float(np.abs(np.diff(returns)).mean()) if half else 0.0
+    rested = drift is not None and abs(drift) <= max(noise, 1e-9)
     accuracy = {
         side: _mean([row[f"accuracy_{side}"] for row in tail])
         for side in ("canonical", "adversary")

@@ -37,7 +37,7 @@ from rigid.files import json_text, write_atomically
 from rigid.learning.group_play import phase_rng
 from rigid.naturalness.measure import Measure
 from rigid.naturalness.noise import NOISE_LEVELS, movement, under_noise
-from rigid.naturalness.panel import rate
+from rigid.naturalness.rates import rate
 from rigid.naturalness.referee import HEADLINE_KAPPA, log_ratio
 from rigid.naturalness.standardise import canonical_scale, standardise
 from rigid.naturalness.views import Episodes

@@ -21,11 +21,8 @@ from rigid.compute.referee_files import save_panel
 from rigid.compute.scoring import Court, Ruler, judge, score
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically
-from rigid.learning.adversary import (
-    Adversary,
-    AdversarySettings,
-    Metrics,
-)
+from rigid.learning.adversary import Adversary, Metrics
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.group_play import Opponent
 from rigid.learning.searching import Search, search_for
 from rigid.policies.gaussian import GaussianPolicy

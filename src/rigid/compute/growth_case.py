@@ -16,9 +16,10 @@ import numpy as np
 from rigid.compute.executors import Local
 from rigid.compute.measurement import measure_robots
 from rigid.compute.memory import peak_memory
-from rigid.compute.preparation import Subject, settings_for
+from rigid.compute.preparation import settings_for
 from rigid.compute.robot_run import Order
 from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.subject import Subject
 from rigid.compute.timing import timed
 from rigid.frontier.comparison import Row, compare
 from rigid.presets import Preset

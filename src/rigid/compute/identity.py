@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 from rigid.data.episodes import CanonicalEpisodes, data_hash
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import policy_hash

@@ -27,7 +27,8 @@ from rigid.learning.adversary import (
     train_iteration,
 )
 from rigid.learning.group_play import Experience, canonical_motion, group_actor
-from rigid.learning.ppo import Learner, PPOSettings, Rollout, ppo_update
+from rigid.learning.learner import Learner, Rollout
+from rigid.learning.ppo import PPOSettings, ppo_update
 from rigid.learning.rollout import play, policy_actor
 from rigid.naturalness.measure import Measure, Motion
 from rigid.naturalness.standardise import canonical_scale, standardise
@@ -52,7 +53,7 @@ class Iteration:
                 lambdas, jax.random.split(jax.random.key(0), len(lambdas)), strict=True
             )
         ]
-        self._world = self._task.make_world(len(lambdas) * preset.episodes)
+        self._world = self._task.make_world(len(lambdas) * preset.episodes, threads=inputs.threads)
         starts = np.resize(inputs.opponent.canonical_seeds, preset.episodes)
         self._starts = np.tile(starts, len(lambdas))
         self._canonical = canonical_motion(inputs.opponent)
@@ -74,7 +75,7 @@ class Iteration:
         self._played = play_with(
             self._task, opponent.robot, self._human(),
             self._starts[: self.inputs.preset.episodes],
-            humans=self.adversaries, snapshots=snapshots,
+            humans=self.adversaries, snapshots=snapshots, threads=self.inputs.threads,
         )  # fmt: skip
         self._motion = np.stack(snapshots)
         seen, scale = self._played, canonical_scale(opponent.canonical)
@@ -95,7 +96,7 @@ class Iteration:
 
     def physics(self) -> None:
         """The motion with nothing but MuJoCo."""
-        step_through(self._task, self._motion)
+        step_through(self._task, self._motion, self.inputs.threads)
 
     def stepping(self) -> None:
         """The motion in the task's worlds with ready actions: physics, observation and reward."""
@@ -174,7 +175,7 @@ def _hold(
 
 
 def step_through(
-    task: ItchScratching, motion: Float[np.ndarray, "T1 B state"]
+    task: ItchScratching, motion: Float[np.ndarray, "T1 B state"], threads: int
 ) -> Float[np.ndarray, "B q"]:
     """The motion of recorded snapshots again, with ready targets: nothing but MuJoCo.
 
@@ -182,7 +183,7 @@ def step_through(
         Joint angles at its end [rad].
     """
     size = task.model.nq
-    batch = Batch(task.model, motion.shape[1])
+    batch = Batch(task.model, motion.shape[1], threads)
     batch.bind("qpos")[:] = motion[0, :, :size]
     target = batch.bind("ctrl")
     for snapshot in motion[1:]:

@@ -8,12 +8,13 @@ from pathlib import Path
 
 from rigid.compute.executors import Executor, on_this_machine
 from rigid.compute.listening import Listener, Silence
-from rigid.compute.preparation import Subject, settings_for
+from rigid.compute.preparation import settings_for
 from rigid.compute.robot_run import Order, RobotRun, begin
 from rigid.compute.seed_search import SeedSearch
+from rigid.compute.subject import Subject
 from rigid.compute.threads import fix_xla_threads
 from rigid.frontier.result import Frontier, load_frontier
-from rigid.learning.adversary import AdversarySettings
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.naturalness.choice import DEFAULT_MEASURE
 from rigid.presets import Preset
 
@@ -87,6 +88,7 @@ def measure_robots(orders: Sequence[Order], executor: Executor | None = None) ->
         [order.subject for order in orders],
     )
     with chosen.workers() as workers, ExitStack() as locks:
+        news = [text for text in (workers.description,) if text is not None]
 
         def searches() -> Iterator[SeedSearch]:
             for order in orders:
@@ -95,8 +97,8 @@ def measure_robots(orders: Sequence[Order], executor: Executor | None = None) ->
                 if run is None:
                     lock.close()
                     continue
-                if workers.description is not None:
-                    order.listener.say(workers.description)
+                while news:  # Once for all robots.
+                    order.listener.say(news.pop())
                 run.announce(workers.count)
                 owners.update((search, (run, lock)) for search in run.searches)
                 yield from run.searches

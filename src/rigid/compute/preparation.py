@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import jax
@@ -21,10 +20,11 @@ from rigid.compute.scoring import (
     play_with,
     seen_by_referee,
 )
+from rigid.compute.subject import Subject, canonical_path, load_players
 from rigid.data.episodes import CanonicalEpisodes, load_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
-from rigid.learning.adversary import ALONE, SHARED, AdversarySettings
+from rigid.learning.adversary_settings import ALONE, SHARED, AdversarySettings
 from rigid.learning.group_play import Opponent, phase_rng
 from rigid.learning.rollout import policy_actor
 from rigid.naturalness.choice import DEFAULT_MEASURE, check_measure
@@ -32,41 +32,12 @@ from rigid.naturalness.features import DEFAULT, Features, choose_features, seen_
 from rigid.naturalness.panel import train_panel
 from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.gaussian import GaussianPolicy
-from rigid.policies.loading import BUNDLED, load_policy
 from rigid.policies.passive import PassivePolicy
 from rigid.policies.protocol import Policy
 from rigid.presets import Preset
 from rigid.tasks.protocol import Task, adversarialness
 
-CANONICAL_FILE = "canonical.npz"
 _BLOCK = 100  # Episodes played side by side in every recording.
-
-
-@dataclass(frozen=True)
-class Subject:
-    """Who is measured, with whom, on what; as the user named it."""
-
-    task: Task
-    robot: str
-    human: str = "builtin:synthetic-human"
-    canonical: str | None = None
-    """A file of canonical episodes; by default the robot's own, or a fresh recording."""
-    features: str = DEFAULT
-    """What naturalness sees of the human, for search and referee alike; see `choose_features`."""
-    canonical_draw: int = 0
-    """Which draw of canonical play this is: the referee's episodes, the deviation of reward and,
-    where `canonical` names no file, the search's episodes. Draw 0 is everybody's, and alone takes
-    the episodes that lie beside the robot; others show what a wholly new measurement would say."""
-
-    @property
-    def search_seed(self) -> int:
-        """Of the recording that the search sees."""
-        return 2 * self.canonical_draw
-
-    @property
-    def ruler_seed(self) -> int:
-        """Of the recording that referees see; no recording's seed serves twice, over all draws."""
-        return 2 * self.canonical_draw + 1
 
 
 @dataclass(frozen=True)
@@ -99,18 +70,7 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
             f"task {task.name!r} has no range of adversarialness: set its return_range to the "
             "returns (worst, best) that map to 1 and 0"
         )
-    robot = load_policy(subject.robot, task=task, agent="robot")
-    human = load_policy(subject.human, task=task, agent="human")
-    if not isinstance(human, GaussianPolicy):
-        raise UserError(
-            f"human {subject.human!r} has no action noise to search with: name a synthetic human, "
-            "for example builtin:synthetic-human"
-        )
-    if human.memory != 1:
-        raise UserError(
-            f"human {subject.human!r} sees its last {human.memory} observations, but the search "
-            "starts from a human without memory: name a synthetic human trained so"
-        )
+    robot, human = load_players(subject)
     referee = RefereeSettings()
     canonical, played = _canonical(subject, robot, human, preset, features, referee)
     ruler = Ruler(canonical.folds, task.return_range, referee)
@@ -165,7 +125,7 @@ def _canonical(
     def seen(episodes: CanonicalEpisodes) -> CanonicalEpisodes:
         return replace(episodes, features=_chosen(features, episodes, subject))
 
-    path = _canonical_path(subject)
+    path = canonical_path(subject)
     given = None if path is None else load_episodes(path, task=subject.task)
     if path is not None and given is not None and given.source == "recorded":
         if subject.canonical_draw:
@@ -200,7 +160,7 @@ def _chosen(
         return episodes.features
     if episodes.observations is None or episodes.actions is None:
         raise UserError(
-            f"{_canonical_path(subject)} holds no observations and actions, so features "
+            f"{canonical_path(subject)} holds no observations and actions, so features "
             f"{features.label!r} cannot be taken from it: leave --features out, or record it again "
             "with `rigid record`"
         )
@@ -210,18 +170,6 @@ def _chosen(
 def _played(episodes: int) -> int:
     """Episodes that it takes to record `episodes` of them, faults aside."""
     return -(-episodes // _BLOCK) * _BLOCK
-
-
-def _canonical_path(subject: Subject) -> Path | None:
-    """The user's file, else the episodes that lie beside the robot, if there are any."""
-    if subject.canonical is not None:
-        return Path(subject.canonical)
-    if subject.canonical_draw:
-        return None
-    name = subject.robot.removeprefix("builtin:")
-    folder = BUNDLED / subject.task.name / name if name != subject.robot else Path(name)
-    file = Path(str(folder)) / CANONICAL_FILE
-    return file if file.exists() else None
 
 
 def _reward_std(task: Task, robot: Policy, human: GaussianPolicy, draw: int) -> float:

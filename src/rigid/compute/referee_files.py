@@ -18,7 +18,8 @@ from safetensors.numpy import load, save
 
 from rigid.errors import UserError
 from rigid.files import json_text, parse_header, read_bytes, write_atomically
-from rigid.naturalness.panel import Jury, Panel, Rate, naturalness
+from rigid.naturalness.panel import Jury, Panel, naturalness
+from rigid.naturalness.rates import Rate
 from rigid.naturalness.referee import Referee
 from rigid.naturalness.standardise import Scale
 from rigid.naturalness.views import Episodes

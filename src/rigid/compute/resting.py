@@ -16,7 +16,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from rigid.data.recording import record
-from rigid.learning.adversary import Adversary, AdversarySettings, start_adversary, train_iteration
+from rigid.learning.adversary import Adversary, start_adversary, train_iteration
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.group_play import Opponent, group_actor, phase_rng
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import Trajectories, play, policy_actor

@@ -11,10 +11,12 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from rigid.compute.endings import Ended, ended, measure
-from rigid.learning.adversary import Adversary, AdversarySettings, own_scores
+from rigid.learning.adversary import Adversary, own_scores
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.group_play import Opponent, group_actor, phase_rng
 from rigid.learning.rollout import Actor, Trajectories, play, policy_actor
-from rigid.naturalness.panel import AXIS, Fold, Panel, naturalness, rate, train_panels
+from rigid.naturalness.panel import AXIS, Fold, Panel, naturalness, train_panels
+from rigid.naturalness.rates import rate
 from rigid.naturalness.referee import RefereeSettings
 from rigid.naturalness.views import Episodes
 from rigid.policies.gaussian import GaussianParameters, GaussianPolicy

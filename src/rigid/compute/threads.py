@@ -13,9 +13,10 @@ from collections.abc import MutableMapping
 
 VARIABLE = "PJRT_NPROC"
 """What XLA takes for the number of cores when JAX starts."""
-XLA_THREADS = 2
-"""Ours: the recorded results were made on two cores. Physics takes every core, and its numbers do
-not depend on them."""
+XLA_THREADS = 1
+"""Ours. A long measurement has a process for each core, where a second thread only waits for the
+first one's core: with two of them an update of preset `standard` took 584 ms of one core, with one
+459 to 479. Physics takes every core that it is given, and its numbers do not depend on them."""
 
 
 def fix_xla_threads(environment: MutableMapping[str, str] = os.environ) -> None:

@@ -15,7 +15,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from rigid.learning.cooptimisation import Progress
-from rigid.learning.ppo import Learner, PPOSettings, Rollout, init_learner, ppo_update, with_noise
+from rigid.learning.learner import Learner, Rollout, with_noise
+from rigid.learning.ppo import PPOSettings, init_learner, ppo_update
 from rigid.learning.rollout import Trajectories, play, policy_actor
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.protocol import Policy

@@ -2,16 +2,13 @@
 
 One learner is a policy, a critic and their optimiser; every function takes one learner and is
 `vmap`-ped by callers that train several side by side. T denotes steps, N episodes.
-
-The critic sees the time left, the policy does not: episodes end after exactly T steps, so the value
-of a state depends on time, and a baseline may look at anything without biasing the gradient.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, TypedDict
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -19,6 +16,14 @@ import optax
 from jaxtyping import Array, Float, PRNGKeyArray
 
 from rigid.learning.advantages import advantages, signal_share, standardised
+from rigid.learning.learner import (
+    Learner,
+    Rollout,
+    Trainable,
+    critic_values,
+    trainable_of,
+    with_time,
+)
 from rigid.policies.gaussian import GaussianParameters, init_gaussian, log_density, mean_action
 from rigid.policies.networks import (
     MLP,
@@ -57,29 +62,6 @@ class PPOSettings:
     """Advantages with a smaller standard deviation than this shorten the step in proportion. PPO
     standardises advantages and Adam the gradient, so that even a policy with nothing left to gain
     walks at full pace, led by noise; with a floor it comes to rest. 0: plain PPO. Ours."""
-
-
-class Learner(NamedTuple):
-    """A policy and a critic in training."""
-
-    policy: GaussianParameters
-    critic: MLP
-    critic_normaliser: Normaliser
-    optimiser: optax.OptState
-
-
-class Rollout(NamedTuple):
-    """N episodes of T steps as one learner saw them."""
-
-    observation: Float[Array, "T N o"]
-    critic_observation: Float[Array, "T N c"]
-    action: Float[Array, "T N a"]
-    """Actions as sampled, before clipping."""
-    reward: Float[Array, "T N"]
-    weight: Float[Array, "T N"]
-    """1, or 0 from the step on at which physics ran away."""
-    expert_action: Float[Array, "T N a"]
-    """What the expert would do; ignored without cloning."""
 
 
 class Losses(NamedTuple):
@@ -127,40 +109,8 @@ def start_learner(
     critic_normaliser: Normaliser,
 ) -> Learner:
     """A learner that starts from given networks with a fresh optimiser."""
-    optimiser = make_optimiser(settings).init(_trainable(policy, critic))
+    optimiser = make_optimiser(settings).init(trainable_of(policy, critic))
     return Learner(policy, critic, critic_normaliser, optimiser)
-
-
-def with_noise(learner: Learner, std: float) -> Learner:
-    """The learner with every action's standard deviation set to `std`."""
-    log_std = jnp.full_like(learner.policy.log_std, jnp.log(std))
-    return learner._replace(policy=learner.policy._replace(log_std=log_std))
-
-
-class _Trainable(TypedDict):
-    """What gradients move; a dict, whose sorted keys order the leaves of the optimiser's state."""
-
-    network: MLP
-    log_std: Float[Array, " a"]
-    critic: MLP
-
-
-def _trainable(policy: GaussianParameters, critic: MLP) -> _Trainable:
-    return {"network": policy.network, "log_std": policy.log_std, "critic": critic}
-
-
-def critic_values(learner: Learner, observation: Float[Array, "T N c"]) -> Float[Array, "T N"]:
-    """The critic's estimate at every step, given the share of the episode that is left."""
-    return apply_mlp(learner.critic, _with_time(learner.critic_normaliser, observation))[..., 0]
-
-
-def _with_time(
-    normaliser: Normaliser, observation: Float[Array, "T N c"]
-) -> Float[Array, "T N c1"]:
-    steps, episodes = observation.shape[:2]
-    left = 1 - jnp.arange(steps, dtype=jnp.float32) / steps
-    column = jnp.broadcast_to(left[:, None, None], (steps, episodes, 1))
-    return jnp.concatenate([normalise(normaliser, observation), column], axis=-1)
 
 
 def ppo_update(
@@ -200,7 +150,7 @@ def ppo_update(
     mean = mean_action(learner.policy, rollout.observation)
     samples = {
         "observation": normalise(learner.policy.normaliser, rollout.observation),
-        "critic": _with_time(learner.critic_normaliser, rollout.critic_observation),
+        "critic": with_time(learner.critic_normaliser, rollout.critic_observation),
         "action": rollout.action,
         "expert": rollout.expert_action,
         "log_density": log_density(mean, learner.policy.log_std, rollout.action),
@@ -232,7 +182,7 @@ def _epochs(
 
     def step(carry: Learner, order: Array) -> tuple[Learner, Losses]:
         batch = {name: x[order] for name, x in samples.items()}
-        trainable = _trainable(carry.policy, carry.critic)
+        trainable = trainable_of(carry.policy, carry.critic)
         gradient, losses = jax.grad(_loss, has_aux=True)(trainable, batch, settings)
         updates, state = optimiser.update(gradient, carry.optimiser, trainable)
         for part in ("network", "log_std"):  # The critic always learns at its own rate.
@@ -248,7 +198,7 @@ def _epochs(
 
 
 def _loss(
-    trainable: _Trainable, batch: dict[str, Array], settings: PPOSettings
+    trainable: Trainable, batch: dict[str, Array], settings: PPOSettings
 ) -> tuple[Float[Array, ""], Losses]:
     mean = apply_mlp(trainable["network"], batch["observation"])
     density = log_density(mean, trainable["log_std"], batch["action"])

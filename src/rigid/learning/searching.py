@@ -8,23 +8,12 @@ from typing import Any, Protocol, runtime_checkable
 
 import jax
 
-from rigid.learning.adversary import (
-    Adversary,
-    AdversarySettings,
-    Metrics,
-    start_adversary,
-    train_iteration,
-)
+from rigid.learning.adversary import Adversary, Metrics, start_adversary, train_iteration
+from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.conditioned import Sharing
 from rigid.learning.group_play import Opponent
-from rigid.learning.shared import (
-    Family,
-    Range,
-    family_iteration,
-    members,
-    ranges_of,
-    start_family,
-)
+from rigid.learning.ranges import Range, ranges_of
+from rigid.learning.shared import Family, family_iteration, members, start_family
 from rigid.tasks.protocol import Task, World
 
 

@@ -22,7 +22,6 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray, Shaped
 
 from rigid.learning.adversary import (
     Adversary,
-    AdversarySettings,
     Metrics,
     first_networks,
     mean_of_sound,
@@ -31,16 +30,8 @@ from rigid.learning.adversary import (
     seen_by_task,
     shaped_reward,
 )
-from rigid.learning.conditioned import (
-    CODE_SIZE,
-    Sharing,
-    at_code,
-    codes_at,
-    draw_places,
-    lambda_at,
-    slot_of,
-    told,
-)
+from rigid.learning.adversary_settings import AdversarySettings
+from rigid.learning.conditioned import CODE_SIZE, at_code, told
 from rigid.learning.group_play import (
     Experience,
     Opponent,
@@ -48,7 +39,9 @@ from rigid.learning.group_play import (
     phase_rng,
     play_group,
 )
-from rigid.learning.ppo import Learner, ppo_update, start_learner
+from rigid.learning.learner import Learner
+from rigid.learning.ppo import ppo_update, start_learner
+from rigid.learning.ranges import Drawn, Range, draw
 from rigid.naturalness.measure import Motion, unknown
 from rigid.naturalness.side_by_side import SideBySide
 from rigid.policies.gaussian import with_memory
@@ -68,58 +61,6 @@ class Family(NamedTuple):
     penalty_std: Float[Array, " S"]
     """σ_P of each slot, frozen."""
     iteration: Int[Array, ""]
-
-
-class Range(NamedTuple):
-    """The ascending λ between which one family trains, and how many of them it plays at a time."""
-
-    lambdas: tuple[float, ...]
-    """Those that were asked for, and the one that it trains at for their sake."""
-    asked: tuple[float, ...]
-    slots: int
-    natural: bool
-    """Whether it starts at the synthetic human."""
-
-    def codes(self) -> Float[np.ndarray, "L c"]:
-        """The code of each λ."""
-        return codes_at(np.arange(len(self.lambdas), dtype=float), len(self.lambdas))
-
-    def slot(self, lambda_: float) -> int:
-        """The slot that plays nearest to one of `lambdas`."""
-        return slot_of(self.lambdas.index(lambda_), len(self.lambdas), self.slots)
-
-    def measures(self, settings: AdversarySettings) -> SideBySide:
-        """One search measure for each slot."""
-        return SideBySide(settings.search_measure, self.slots)
-
-
-class Drawn(NamedTuple):
-    """What the slots of one family play in one iteration."""
-
-    lambdas: Float[Array, " S"]
-    codes: Float[Array, "S c"]
-
-
-def ranges_of(lambdas: Sequence[float], sharing: Sharing) -> list[Range]:
-    """The λ of each family that was asked for any; the wild one comes first.
-
-    Example:
-        >>> for each in ranges_of([3.0, 0.0], Sharing(wild_slots=2, natural_slots=3)):
-        ...     print(each)
-        Range(lambdas=(0.0, 0.4), asked=(0.0,), slots=2, natural=False)
-        Range(lambdas=(0.1, 3.0), asked=(3.0,), slots=3, natural=True)
-    """
-    wild = {value for value in lambdas if value < sharing.natural_start}
-    natural = set(lambdas) - wild
-    families = (
-        (wild, sharing.wild_to, sharing.wild_slots, False),
-        (natural, sharing.natural_from, sharing.natural_slots, True),
-    )
-    return [
-        Range(tuple(sorted(asked | {beyond})), tuple(sorted(asked)), slots, from_human)
-        for asked, beyond, slots, from_human in families
-        if asked
-    ]
 
 
 def start_family(
@@ -168,7 +109,7 @@ def family_iteration(
     """
     iteration = int(families[0].iteration)
     rng = phase_rng(seed, "train", iteration)
-    drawn = [_draw(each, rng) for each in ranges]
+    drawn = [draw(each, rng) for each in ranges]
     louder = [_louder(each, settings, iteration) for each in ranges]
     exploring = [
         _sampling(family.learner, opponent.human.log_std + np.log(factor, dtype=np.float32))
@@ -215,13 +156,6 @@ def _louder(range_: Range, settings: AdversarySettings, iteration: int) -> float
         return 1.0
     left = 1 - iteration / (sharing.wild_quiet_from * settings.iterations)
     return float(sharing.wild_noise ** max(left, 0.0))
-
-
-def _draw(range_: Range, rng: np.random.Generator) -> Drawn:
-    count = len(range_.lambdas)
-    places = draw_places(count, range_.slots, rng)
-    lambdas = jnp.array([lambda_at(range_.lambdas, place) for place in places])
-    return Drawn(lambdas, jnp.asarray(codes_at(places, count)))
 
 
 def _of_slot(metrics: Metrics, slot: int) -> Metrics:

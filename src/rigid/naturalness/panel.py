@@ -15,9 +15,10 @@ from typing import NamedTuple
 
 import jax
 import numpy as np
-from jaxtyping import Bool, Float, PRNGKeyArray, Shaped
+from jaxtyping import Float, PRNGKeyArray
 
 from rigid.naturalness.logistic import Sample, Side, padded
+from rigid.naturalness.rates import Rate, rate
 from rigid.naturalness.referee import (
     HEADLINE_KAPPA,
     Referee,
@@ -46,13 +47,6 @@ LEVELS = (Level("step", 1, 1, (1.0, 4.0)), Level("window16", 16, 4, (1.0, 4.0, 1
 AXIS = f"step_k{HEADLINE_KAPPA:g}"
 """The level on the x axis."""
 LEVEL_NAMES = tuple(f"{level.name}_k{kappa:g}" for level in LEVELS for kappa in level.kappas)
-
-
-class Rate(NamedTuple):
-    """A share with its standard error over episodes, None where there is only one of them."""
-
-    value: float
-    se: float | None
 
 
 @dataclass(frozen=True)
@@ -177,25 +171,6 @@ def naturalness(panel: Panel, episodes: Episodes) -> dict[str, Rate | None]:
             passed = rate((ratios < np.log(kappa)).mean(axis=0), sound)
             found[f"{level.name}_k{kappa:g}"] = _sum(passed, alarms, kappa)
     return found
-
-
-def rate(values: Shaped[np.ndarray, "E W"], sound: Bool[np.ndarray, "E W"]) -> Rate:
-    """Mean over the sound windows, with a standard error clustered by episode.
-
-    The windows of an episode are anything but independent; its sum over windows is the unit. Where
-    faults leave episodes of unequal length this is the linearised error of a ratio of means.
-
-    Example:
-        >>> rate(np.array([[1.0, 1.0], [0.0, 0.0]]), np.ones((2, 2), dtype=bool))
-        Rate(value=0.5, se=0.5)
-    """
-    weight = sound.sum(axis=1)
-    mean = float((values * sound).sum() / weight.sum())
-    count = len(weight)
-    if count < 2:
-        return Rate(mean, None)
-    residual = ((values - mean) * sound).sum(axis=1) / weight.mean()
-    return Rate(mean, float(np.sqrt((residual**2).sum() / (count * (count - 1)))))
 
 
 def _sum(passed: Rate, alarms: Rate, kappa: float) -> Rate:

@@ -18,7 +18,7 @@ import jax.numpy as jnp
 
 from rigid._version import __version__
 from rigid.compute.checkpoint import load_tree, save_tree
-from rigid.compute.preparation import CANONICAL_FILE
+from rigid.compute.subject import CANONICAL_FILE
 from rigid.data.episodes import save_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
@@ -30,8 +30,8 @@ from rigid.learning.cooptimisation import (
     co_optimise,
     start_pair,
 )
+from rigid.learning.learner import Learner
 from rigid.learning.personalisation import PersonalisationSettings, personalise, start_robot
-from rigid.learning.ppo import Learner
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import load_policy, policy_hash
 from rigid.policies.native import CARD_FILE, Agent, save_policy

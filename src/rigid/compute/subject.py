@@ -1,0 +1,75 @@
+"""Who is measured: the robot, its human and their canonical episodes, as the user named them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from rigid.errors import UserError
+from rigid.naturalness.features import DEFAULT
+from rigid.policies.gaussian import GaussianPolicy
+from rigid.policies.loading import BUNDLED, load_policy
+from rigid.policies.protocol import Policy
+from rigid.tasks.protocol import Task
+
+CANONICAL_FILE = "canonical.npz"
+
+
+@dataclass(frozen=True)
+class Subject:
+    """Who is measured, with whom, on what; as the user named it."""
+
+    task: Task
+    robot: str
+    human: str = "builtin:synthetic-human"
+    canonical: str | None = None
+    """A file of canonical episodes; by default the robot's own, or a fresh recording."""
+    features: str = DEFAULT
+    """What naturalness sees of the human, for search and referee alike; see `choose_features`."""
+    canonical_draw: int = 0
+    """Which draw of canonical play this is: the referee's episodes, the deviation of reward and,
+    where `canonical` names no file, the search's episodes. Draw 0 is everybody's, and alone takes
+    the episodes that lie beside the robot; others show what a wholly new measurement would say."""
+
+    @property
+    def search_seed(self) -> int:
+        """Of the recording that the search sees."""
+        return 2 * self.canonical_draw
+
+    @property
+    def ruler_seed(self) -> int:
+        """Of the recording that referees see; no recording's seed serves twice, over all draws."""
+        return 2 * self.canonical_draw + 1
+
+
+def load_players(subject: Subject) -> tuple[Policy, GaussianPolicy]:
+    """The robot, and the synthetic human that the search starts from.
+
+    Raises:
+        UserError: One does not exist, is damaged or does not fit; the human is none to search with.
+    """
+    robot = load_policy(subject.robot, task=subject.task, agent="robot")
+    human = load_policy(subject.human, task=subject.task, agent="human")
+    if not isinstance(human, GaussianPolicy):
+        raise UserError(
+            f"human {subject.human!r} has no action noise to search with: name a synthetic human, "
+            "for example builtin:synthetic-human"
+        )
+    if human.memory != 1:
+        raise UserError(
+            f"human {subject.human!r} sees its last {human.memory} observations, but the search "
+            "starts from a human without memory: name a synthetic human trained so"
+        )
+    return robot, human
+
+
+def canonical_path(subject: Subject) -> Path | None:
+    """The user's file, else the episodes that lie beside the robot, if there are any."""
+    if subject.canonical is not None:
+        return Path(subject.canonical)
+    if subject.canonical_draw:
+        return None
+    name = subject.robot.removeprefix("builtin:")
+    folder = BUNDLED / subject.task.name / name if name != subject.robot else Path(name)
+    file = Path(str(folder)) / CANONICAL_FILE
+    return file if file.exists() else None

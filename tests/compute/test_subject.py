@@ -1,0 +1,43 @@
+"""Who can be measured, and where canonical episodes are found."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rigid.compute.subject import Subject, canonical_path, load_players
+from rigid.errors import UserError
+from rigid.policies.native import save_policy
+from tests.compute.tiny import FilmedReach
+from tests.toys import untrained
+
+
+@pytest.fixture
+def subject(base):
+    return Subject(FilmedReach(), *(str(base / "pair" / agent) for agent in ("robot", "human")))
+
+
+def test_a_human_without_noise_cannot_be_searched_from(subject):
+    with pytest.raises(UserError, match=r"'builtin:passive' has no action noise to search with"):
+        load_players(replace(subject, human="builtin:passive"))
+
+
+def test_a_human_with_memory_cannot_be_searched_from(subject, tmp_path):
+    task = subject.task
+    human = untrained(task.human, memory=3)
+    save_policy(human, tmp_path / "h", agent="human", task=task.describe(), provenance={})
+    with pytest.raises(UserError, match=r"sees its last 3 observations, but the search starts"):
+        load_players(replace(subject, human=str(tmp_path / "h")))
+
+
+def test_a_file_that_is_named_goes_before_the_one_beside_the_robot(subject, tmp_path):
+    beside, named = tmp_path / "canonical.npz", tmp_path / "others.npz"
+    beside.touch()
+    subject = replace(subject, robot=str(tmp_path))
+    assert canonical_path(subject) == beside
+    assert canonical_path(replace(subject, canonical=str(named))) == named
+
+
+def test_a_robot_without_episodes_beside_it_has_none(subject):
+    assert canonical_path(subject) is None
