@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 
 import pytest
 
@@ -30,8 +31,25 @@ def test_a_first_session_leaves_a_note(tmp_path):
     clock.go_on(tmp_path / "groups" / "spent.json")
     clock.keep()
     assert set(json.loads((tmp_path / "groups" / "spent.json").read_text())) == {
-        "core_seconds", "wall_seconds",
+        "core_seconds", "wall_seconds", "driver_seconds",
     }  # fmt: skip
+
+
+def test_a_note_of_before_the_drivers_time_was_counted_is_read(tmp_path):
+    (tmp_path / "spent.json").write_text('{"core_seconds": 1000.0, "wall_seconds": 500.0}')
+    clock = Clock()
+    clock.go_on(tmp_path / "spent.json")
+    assert clock.read()["driver_seconds"] < 60
+
+
+def test_only_work_for_a_measurement_is_its_drivers_time():
+    """Sleep stands for work, which takes wall time."""
+    clock = Clock()
+    time.sleep(0.3)
+    with clock.working():
+        time.sleep(0.3)
+    found = clock.read()
+    assert 0.3 <= found["driver_seconds"] <= found["wall_seconds"] - 0.2
 
 
 def test_notes_are_not_taken_at_every_tick(tmp_path):

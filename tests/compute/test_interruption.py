@@ -5,9 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import os
 import signal
-import threading
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -18,7 +16,7 @@ from rigid import presets
 from rigid.cli import run
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier
-from tests.compute.tiny import TINY, Notes, start_rigid, without_times
+from tests.compute.tiny import TINY, Notes, interrupt_at, start_rigid, without_times
 
 PATIENCE = 300.0
 """Seconds until a stage counts as hung; a shared machine may be slow."""
@@ -51,26 +49,6 @@ def killed_at(path: Path, process) -> int:
     process.kill()
     process.communicate(timeout=PATIENCE)
     return process.returncode
-
-
-@contextlib.contextmanager
-def interrupt_at(path: Path):
-    """Sends SIGINT to this process as soon as `path` exists, as Ctrl-C does."""
-    over = threading.Event()
-
-    def watch():
-        while not over.wait(0.01):
-            if path.exists():
-                os.kill(os.getpid(), signal.SIGINT)
-                return
-
-    watcher = threading.Thread(target=watch)
-    watcher.start()
-    try:
-        yield
-    finally:
-        over.set()
-        watcher.join()
 
 
 @pytest.fixture(scope="module")

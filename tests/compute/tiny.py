@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
+import threading
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +35,7 @@ TINY = Preset(
 )
 """Two groups for each of two seeds, each with a checkpoint before its end."""
 
-TIMES = ("core_seconds", "wall_seconds")
+TIMES = ("core_seconds", "wall_seconds", "driver_seconds")
 
 
 class FilmedReach(ToyReach):
@@ -107,6 +110,26 @@ def without_times(frontier: Frontier) -> str:
     for name in TIMES:
         del data[name]
     return json.dumps(data, indent=1)
+
+
+@contextmanager
+def interrupt_at(path: Path, ready=lambda: True):
+    """Sends SIGINT to this process, as Ctrl-C does, as soon as `path` exists and it is `ready`."""
+    over = threading.Event()
+
+    def watch():
+        while not over.wait(0.01):
+            if path.exists() and ready():
+                os.kill(os.getpid(), signal.SIGINT)
+                return
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    try:
+        yield
+    finally:
+        over.set()
+        watcher.join()
 
 
 class Notes:

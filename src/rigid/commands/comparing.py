@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
+from rigid.commands.comparison_table import as_json, table
 from rigid.commands.parsing import printable
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
-    from rigid.frontier.comparison import Number, Row
-    from rigid.frontier.intervals import Interval, PairedDifference
+    from rigid.frontier.comparison import Number
 
 _shown_as = tyro.conf.arg
 GATE_FAILED = 3
@@ -37,10 +37,25 @@ class CompareCommand:
     Examples:
       rigid compare runs/vanilla runs/mine
       rigid compare runs/* --json > table.json
+      rigid compare --robots builtin:vanilla robots/* --out runs/fleet --executor ray
     """
 
     directories: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
     """Finished run directories, two or more."""
+    robots: Annotated[tuple[str, ...], _shown_as(metavar="ROBOT…")] = ()
+    """Measure these first, each into the folder of its name in --out; what is there goes on."""
+    out: Annotated[Path | None, _shown_as(metavar="DIR")] = None
+    """Where --robots are measured."""
+    task: str = "itch-scratching"
+    """Registered task of --robots."""
+    human: str = "builtin:synthetic-human"
+    """The synthetic human that --robots were trained for."""
+    preset: str = "standard"
+    """Budget of --robots: demo, standard or paper."""
+    seeds: Annotated[str | None, _shown_as(metavar="SEEDS")] = None
+    """Search seeds of --robots, as 0,1,2 or 0..9; by default the preset's."""
+    executor: Annotated[str, _shown_as(metavar="WHERE")] = "local"
+    """Where --robots are measured: local, ray, or ray:HOST:PORT for a Ray cluster."""
     json: bool = False
     """Print the table as JSON."""
 
@@ -48,15 +63,36 @@ class CompareCommand:
         """Prints the table."""
         from rigid.frontier.comparison import compare
 
-        if len(self.directories) < 2:
-            raise UserError("compare takes two run directories or more")
-        names = _names(self.directories)
+        directories = (*self.directories, *self._measured())
+        names = _names(directories)
         frontiers, identities = {}, {}
-        for name, directory in zip(names, self.directories, strict=True):
+        for name, directory in zip(names, directories, strict=True):
             frontiers[name], identities[name] = _load(directory)
         rows = compare(frontiers, identities)
-        print(json.dumps(_as_json(rows), indent=1) if self.json else table(rows))
+        print(json.dumps(as_json(rows), indent=1) if self.json else table(rows))
         return 0
+
+    def _measured(self) -> list[Path]:
+        """The run directories of `--robots`, complete."""
+        if len(self.directories) + len(self.robots) < 2:
+            raise UserError("compare takes two run directories or more")
+        if not self.robots:
+            self._refuse_measuring()
+            return []
+        if self.out is None:
+            raise UserError("--robots need --out DIR, where they are measured")
+        from rigid.commands.fleet import measure_fleet
+
+        return measure_fleet(
+            self.robots, out=self.out, task=self.task, human=self.human, preset=self.preset,
+            seeds=self.seeds, executor=self.executor,
+        )  # fmt: skip
+
+    def _refuse_measuring(self) -> None:
+        """Refuses what would have no effect without `--robots`."""
+        for option in ("out", "task", "human", "preset", "seeds", "executor"):
+            if getattr(self, option) != getattr(CompareCommand, option):
+                raise UserError(f"--{option} is for --robots: name the robots to be measured")
 
 
 @dataclass(frozen=True)
@@ -169,73 +205,3 @@ def _names(directories: Sequence[Path]) -> list[str]:
     if len(set(names)) < len(names):
         raise UserError("compare was given the same run directory twice")
     return [printable(name) for name in names]
-
-
-def table(rows: Sequence[Row]) -> str:
-    """The comparison as text: numbers with intervals, then differences to the first robot."""
-    from rigid.frontier.comparison import HEADLINE_LEVEL, repeat_spread
-
-    width = max(len(row.name) for row in rows)
-    titles = {
-        "worst_at": f"worst at ≥ {HEADLINE_LEVEL}",
-        "hull_at": f"hull at {HEADLINE_LEVEL}",
-        "auc_natural": "area over [0.8, 1]",
-        "auc": "AUC",
-    }
-    lines = [f"{'robot':{width}}  {'success':>7}" + "".join(f"  {t:>20}" for t in titles.values())]
-    for row in rows:
-        success = row.frontier.data["canonical"]["success"]
-        played = "–" if success is None else f"{success:.2f}"
-        cells = (f"  {_number(row.numbers[key]):>20}" for key in titles)
-        lines.append(f"{row.name:{width}}  {played:>7}" + "".join(cells))
-    lines += ["", f"minus {rows[0].name}, on the search seeds that both have"]
-    for row in rows[1:]:
-        assert row.against is not None
-        cells = (f"  {_difference(row.against[key]):>20}" for key in titles)
-        lines.append(f"{row.name:{width}}  {'':7}" + "".join(cells))
-    spreads = {key: repeat_spread(rows[0].numbers[key]) for key in titles}
-    known = [f"{spread:.3f} for {titles[key]}" for key, spread in spreads.items() if spread]
-    if known:
-        lines += ["", f"a repeat of {rows[0].name} may differ by {', '.join(known)} (95 %)"]
-    steadier = (
-        f"{titles['hull_at']} tells robots apart more steadily: 95 % intervals of its differences "
-        f"covered 94 to 96 %, those of {titles['worst_at']} 76 to 87 % (results/coverage)"
-    )
-    closing = "lower is more robust; estimates at this search power, not bounds"
-    return "\n".join([*lines, steadier, closing])
-
-
-def _number(number: Number) -> str:
-    return f"{number.mean:.3f}{_ends(number.interval)}"
-
-
-def _difference(found: PairedDifference) -> str:
-    return f"{found.mean:+.3f}{_ends(found.interval, '+.2f')}"
-
-
-def _ends(interval: Interval | None, form: str = ".2f") -> str:
-    return "" if interval is None else f" [{interval.low:{form}}, {interval.high:{form}}]"
-
-
-def _as_json(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    from rigid.frontier.comparison import repeat_spread
-
-    return [
-        {
-            "robot": row.name,
-            "directory": str(row.frontier.directory),
-            "success": row.frontier.data["canonical"]["success"],
-            "auc_paper_axis": row.frontier.data.get("auc_paper_axis"),
-            **{
-                key: {
-                    "mean": number.mean,
-                    "interval": number.interval,
-                    "by_seed": dict(number.by_seed),
-                    "repeat_spread": repeat_spread(number),
-                    "minus_baseline": None if row.against is None else row.against[key]._asdict(),
-                }
-                for key, number in row.numbers.items()
-            },
-        }
-        for row in rows
-    ]

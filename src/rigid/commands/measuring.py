@@ -27,6 +27,7 @@ class FrontierCommand:
       rigid frontier --robot builtin:vanilla --out runs/vanilla
       rigid frontier --robot my/robot --preset paper --seeds 0..2 --out runs/mine
       rigid frontier --robot my/robot --lambdas 0,0.01,1,inf --seeds 0 --out runs/look
+      rigid frontier --robot my/robot --executor ray:10.0.0.1:6379 --out runs/mine
     """
 
     out: Path
@@ -53,6 +54,8 @@ class FrontierCommand:
     """What naturalness sees: default, observation, observation+action, or the task's by name."""
     budget: Annotated[str | None, _shown_as(metavar="TIME")] = None
     """Fit the preset to a time: 90s, 30m, 2h."""
+    executor: Annotated[str, _shown_as(metavar="WHERE")] = "local"
+    """local, ray, or ray:HOST:PORT for a Ray cluster; the numbers are the same."""
     json: bool = False
     """Print frontier.json on standard output."""
 
@@ -63,7 +66,7 @@ class FrontierCommand:
 
 @dataclass(frozen=True, kw_only=True)
 class DemoCommand:
-    """Measure the bundled robot in about five minutes, as `make demo` does.
+    """Measure the bundled robot in about three minutes, as `make demo` does.
 
     Example:
       rigid demo --out runs/demo
@@ -117,7 +120,7 @@ def _measure(options: FrontierCommand) -> int:
                 options.task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
                 lambdas=lambdas, memory=options.memory, search_measure=options.search_measure,
                 features=options.features, human=options.human, canonical=options.canonical,
-                listener=listener,
+                executor=options.executor, listener=listener,
             )  # fmt: skip
             report = options.out / "report.html"
             if not report.exists():

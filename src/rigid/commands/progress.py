@@ -54,6 +54,13 @@ class TerminalListener:
         self.say(
             f"{env_steps:,} training steps; about {spoken(seconds)} at the speed just measured"
         )
+        self.expect(env_steps)
+
+    def expect(self, env_steps: int) -> None:
+        """Steps that the bar stands for, from now on."""
+        if self._task is not None:
+            self._bar.update(self._task, total=env_steps)
+            return
         self._task = self._bar.add_task(self._what, total=env_steps)
         self._bar.start()
 

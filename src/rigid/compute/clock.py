@@ -17,16 +17,17 @@ _EVERY = 5.0
 
 
 class Clock:
-    """Wall time since the clock was made, and the processor time that its measurement took.
+    """Wall time since the clock was made, and the time that its measurement took of processors.
 
     Processor time is that of this process and its children while they work for the measurement, and
-    what workers elsewhere report: of several measurements under way, each counts its own.
+    what workers elsewhere report: of several measurements under way, each counts its own. The
+    driver's time is the wall time for which this process worked for it, and so for no other.
     """
 
     def __init__(self) -> None:
-        self._wall, self._core = time.perf_counter(), 0.0
-        self._since: float | None = None
-        self._earlier = {"core_seconds": 0.0, "wall_seconds": 0.0}
+        self._wall, self._core, self._driver = time.perf_counter(), 0.0, 0.0
+        self._since: tuple[float, float] | None = None
+        self._earlier = {"core_seconds": 0.0, "wall_seconds": 0.0, "driver_seconds": 0.0}
         self._note: Path | None = None
         self._noted = self._wall
 
@@ -42,18 +43,20 @@ class Clock:
         cure = "delete it; only the times before are lost"
         try:
             stored = json.loads(read_bytes(note, cure=cure))
+            stored.setdefault("driver_seconds", 0.0)  # Notes of before it was counted.
             self._earlier = {name: float(stored[name]) for name in self._earlier}
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, AttributeError):
             raise UserError(f"{note} is damaged: {cure}") from None
 
     @contextmanager
     def working(self) -> Iterator[None]:
-        """Counts the processor time that passes inside."""
-        self._since = core_seconds()
+        """Counts the processor time that passes inside, and that the driver was busy."""
+        self._since = core_seconds(), time.perf_counter()
         try:
             yield
         finally:
-            self._core, self._since = self._spent(), None
+            self._core, self._driver = self._spent()
+            self._since = None
 
     def add(self, seconds: float) -> None:
         """Counts what a worker in another process took [s]."""
@@ -73,15 +76,20 @@ class Clock:
 
     def read(self) -> dict[str, float]:
         """Time spent in all sessions so far [s]."""
-        now = {
-            "core_seconds": self._spent(),
-            "wall_seconds": time.perf_counter() - self._wall,
-        }
+        core, driver = self._spent()
+        wall = time.perf_counter() - self._wall
+        now = {"core_seconds": core, "wall_seconds": wall, "driver_seconds": driver}
         return {name: round(self._earlier[name] + spent, 1) for name, spent in now.items()}
 
-    def _spent(self) -> float:
-        now = 0.0 if self._since is None else core_seconds() - self._since
-        return self._core + now
+    def _spent(self) -> tuple[float, float]:
+        """Processor time and the driver's, up to now [s]."""
+        if self._since is None:
+            return self._core, self._driver
+        core, wall = self._since
+        return (
+            self._core + core_seconds() - core,
+            self._driver + time.perf_counter() - wall,
+        )
 
 
 def core_seconds() -> float:

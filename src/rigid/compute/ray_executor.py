@@ -7,9 +7,8 @@ with it but the group that it was running.
 
 from __future__ import annotations
 
-import logging
 import os
-import socket
+import sys
 from collections.abc import Generator, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -21,6 +20,7 @@ from rigid.compute.driving import drive
 from rigid.compute.group import GroupInputs, GroupPlan
 from rigid.compute.group_files import read_begun, write_group
 from rigid.compute.provenance import versions
+from rigid.compute.ray_joining import call_at, first_line, import_ray, joined, living_nodes
 from rigid.compute.ray_worker import Errand, Found, run_errand
 from rigid.compute.seed_search import SeedSearch
 from rigid.errors import UserError
@@ -32,7 +32,7 @@ whoever runs it, say for want of memory, has to come to an end."""
 ASKED_FOR = 2
 """Groups that are asked for at a time, for each worker: one that runs, and one that waits so that
 no worker idles while the driver prepares another robot. Ours."""
-_PATIENCE = 5.0  # Seconds until a look at the clock and at the nodes, and for a TCP connection.
+_PATIENCE = 5.0  # Seconds until the next look at the clock and at the nodes.
 
 
 @dataclass(frozen=True)
@@ -52,24 +52,17 @@ class RayExecutor:
     time of the machines: half of a group's work does not divide among threads."""
 
     def __post_init__(self) -> None:
-        _ray()
+        import_ray()
         if self.cpus < 1:
             raise UserError(f"cpus is {self.cpus}, but a group takes at least 1")
         if self.address is not None:
-            _call_at(self.address)
+            call_at(self.address)
 
     @contextmanager
     def workers(self) -> Iterator[RayWorkers]:
         """Joins the cluster, and leaves it at the end; a Ray of our own ends with it."""
-        ray = _ray()
-        joins = not ray.is_initialized()
-        if joins:
-            _join(self.address)
-        try:
+        with joined(self.address):
             yield RayWorkers(self.cpus)
-        finally:
-            if joins:
-                ray.shutdown()
 
 
 class RayWorkers:
@@ -77,10 +70,11 @@ class RayWorkers:
 
     def __init__(self, cpus: int) -> None:
         self._cpus = cpus
-        task = _ray().remote(num_cpus=cpus, max_retries=MAX_RETRIES)
+        self._ray = import_ray()
+        task = self._ray.remote(num_cpus=cpus, max_retries=MAX_RETRIES)
         self._run_errand = task(run_errand)
         self._shared: dict[Path, Any] = {}
-        self._nodes = _nodes()
+        self._nodes = living_nodes()
         self._warned: set[str] = set()
 
     @property
@@ -120,13 +114,15 @@ class RayWorkers:
             begun=read_begun(directory, plan),
             directory=str(directory),
             environment=_environment(),
+            places=tuple(sys.path),
         )  # fmt: skip
         return self._run_errand.remote(errand)
 
     def next_done(self, waiting: Mapping[Any, tuple[SeedSearch, GroupPlan]]) -> Any:
         """A group that is done, or whose workers died too often; None when none is for a while."""
-        ready, _ = _ray().wait(list(waiting), timeout=_PATIENCE)
+        ready, _ = self._ray.wait(list(waiting), timeout=_PATIENCE)
         self._look_around(next(iter(waiting.values()))[0])
+        self._let_go(waiting)
         return ready[0] if ready else None
 
     def collect(self, done: Any, search: SeedSearch, plan: GroupPlan) -> None:
@@ -142,21 +138,26 @@ class RayWorkers:
     def cancel(self, waiting: Mapping[Any, tuple[SeedSearch, GroupPlan]]) -> None:
         """Stops groups: the cluster may outlive an interrupted measurement."""
         for reference in waiting:
-            _ray().cancel(reference, force=True)
+            self._ray.cancel(reference, force=True)
 
     def _put(self, inputs: GroupInputs) -> Any:
         try:
-            return _ray().put(replace(inputs, threads=self._cpus))
+            return self._ray.put(replace(inputs, threads=self._cpus))
         except (TypeError, AttributeError, PicklingError) as error:
-            reason = str(error).strip().splitlines()[0]
             raise UserError(
                 f"task {inputs.task.name!r} and its robot cannot be sent to other machines "
-                f"({reason}): use the executor local"
+                f"({first_line(error)}): use the executor local"
             ) from None
+
+    def _let_go(self, waiting: Mapping[Any, tuple[SeedSearch, GroupPlan]]) -> None:
+        """Frees what robots shared that have no group left; a fleet would fill the memory."""
+        needed = {search.inputs.directory for search, _ in waiting.values()}
+        for directory in self._shared.keys() - needed:
+            del self._shared[directory]
 
     def _look_around(self, search: SeedSearch) -> None:
         """Says when nodes came or went."""
-        now = _nodes()
+        now = living_nodes()
         if now != self._nodes:
             self._nodes = now
             search.listener.say(self.description)
@@ -173,68 +174,20 @@ class RayWorkers:
                 )
 
 
-def _ray() -> Any:
-    try:
-        import ray
-    except ImportError:
-        raise UserError("the executor ray needs Ray: pip install 'rigid-frontier[ray]'") from None
-    return ray
-
-
-def _call_at(address: str) -> None:
-    """Refuses an address at once, where Ray would try for half a minute."""
-    host, _, port = address.rpartition(":")
-    if not host or not port.isdigit():
-        raise UserError(f"executor 'ray:{address}': write the address as ray:10.0.0.1:6379")
-    try:
-        socket.create_connection((host.strip("[]"), int(port)), timeout=_PATIENCE).close()
-    except (OSError, OverflowError) as error:
-        raise UserError(
-            f"no Ray cluster answers at {address} ({error}): start one there with `ray start "
-            "--head`, or name another address"
-        ) from None
-
-
-def _join(address: str | None) -> None:
-    ray = _ray()
-    quietly = {"log_to_driver": False, "logging_level": logging.ERROR}
-    try:
-        ray.init(address=address or "auto", **quietly)
-    except (ConnectionError, RuntimeError, ValueError) as error:
-        if address is not None:
-            reason = str(error).strip().splitlines()[0]
-            raise UserError(
-                f"cannot join the Ray cluster at {address} ({reason}): run this command on one of "
-                "its nodes, with the Python and Ray of the cluster"
-            ) from None
-        cores = len(os.sched_getaffinity(0))
-        ray.init(address="local", num_cpus=cores, include_dashboard=False, **quietly)
-
-
-def _nodes() -> dict[str, float]:
-    """CPUs of each node that lives, by its id."""
-    return {
-        node["NodeID"]: node["Resources"].get("CPU", 0.0)
-        for node in _ray().nodes()
-        if node["Alive"]
-    }
-
-
 def _found(reference: Any, what: str) -> Found:
     """What a worker brought back, or why there is nothing."""
     from ray import exceptions
 
     try:
-        found: Found = _ray().get(reference)
+        found: Found = import_ray().get(reference)
     except exceptions.RayTaskError as error:
         if isinstance(error.cause, UserError):
             raise UserError(str(error.cause)) from None
         raise
     except exceptions.RayError as error:
-        reason = str(error).strip().splitlines()[0]
         raise UserError(
-            f"{what} lost its worker {MAX_RETRIES + 1} times ({reason}): see that workers have "
-            "memory enough; the same command goes on"
+            f"{what} lost its worker {MAX_RETRIES + 1} times ({first_line(error)}): see that "
+            "workers have memory enough; the same command goes on"
         ) from None
     return found
 

@@ -7,13 +7,18 @@ module imports what it needs late, and an errand can be unpacked without JAX.
 from __future__ import annotations
 
 import os
+import socket
+import sys
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rigid.errors import UserError
+
+if TYPE_CHECKING:
+    from rigid.compute.group import GroupInputs
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,8 @@ class Errand:
     directory: str
     """The driver's run directory, for messages."""
     environment: Mapping[str, str]
+    places: tuple[str, ...]
+    """Where the driver finds modules; a worker looks there last, say for the user's own task."""
 
 
 @dataclass(frozen=True)
@@ -48,14 +55,13 @@ def run_errand(errand: Errand) -> Found:
     """Runs a group in a directory of its own.
 
     Raises:
-        UserError: A file that it goes on from is damaged.
+        UserError: A file that it goes on from is damaged, or this worker lacks a module.
     """
     os.environ.update(errand.environment)
+    sys.path += [place for place in errand.places if place not in sys.path]
     from rigid.compute.clock import core_seconds
 
     spent = core_seconds()  # Loading JAX and the task counts.
-    import ray
-
     from rigid.compute.group import GroupPlan, run_group
     from rigid.compute.group_files import read_group, write_group
     from rigid.compute.provenance import versions
@@ -65,8 +71,24 @@ def run_errand(errand: Errand) -> Found:
         directory = Path(place)
         write_group(directory, plan, errand.begun)
         try:
-            run_group(replace(ray.get(errand.shared[0]), directory=directory), plan)
+            run_group(replace(_inputs(errand), directory=directory), plan)
         except UserError as error:
             raise UserError(str(error).replace(place, errand.directory)) from None
         files = read_group(directory, plan)
     return Found(files, core_seconds() - spent, versions())
+
+
+def _inputs(errand: Errand) -> GroupInputs:
+    """What all groups of the measurement share."""
+    import ray
+    from ray.exceptions import RaySystemError
+
+    try:
+        inputs: GroupInputs = ray.get(errand.shared[0])
+    except RaySystemError as error:
+        reason = str(error).strip().splitlines()[0].removeprefix("System error: ")
+        raise UserError(
+            f"the worker on {socket.gethostname()} cannot load the task and its robot ({reason}): "
+            "install there what this machine has, the package of the task as well"
+        ) from None
+    return inputs

@@ -1,0 +1,136 @@
+"""Measuring the robots that `rigid compare --robots` names, all of them in one pool."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rigid.commands.parsing import parse_seeds
+from rigid.errors import UserError
+
+if TYPE_CHECKING:
+    from rigid.commands.progress import TerminalListener
+
+
+def measure_fleet(
+    robots: Sequence[str],
+    *,
+    out: Path,
+    task: str,
+    human: str,
+    preset: str,
+    seeds: str | None,
+    executor: str,
+) -> list[Path]:
+    """Measures robots into `out`, or goes on where an earlier call stopped.
+
+    Args:
+        robots: As `--robot` takes them.
+        out: Each robot gets the folder of its name in it.
+        task: Registered task.
+        human: The synthetic human of all of them.
+        preset: Name of the budget.
+        seeds: Search seeds as people write them; None for the preset's.
+        executor: Where groups run, as people write it.
+
+    Returns:
+        Their run directories, in the order of `robots`.
+
+    Raises:
+        UserError: Bad input; nothing was overwritten.
+    """
+    directories = [out / name for name in names_of(robots)]
+    chosen = parse_seeds(seeds)
+    from rigid.commands.progress import TerminalListener
+    from rigid.compute.executors import find_executor
+    from rigid.compute.measurement import measure_robots
+    from rigid.compute.preparation import settings_for
+    from rigid.compute.robot_run import Order
+    from rigid.compute.subject import Subject
+    from rigid.presets import find_preset
+    from rigid.tasks.registry import make_task
+
+    budget, world = find_preset(preset), make_task(task)
+    where = find_executor(executor)
+    orders = [
+        Order(
+            subject=Subject(world, robot, human), preset=budget, settings=settings_for(budget),
+            out=directory, seeds=chosen,
+        )
+        for robot, directory in zip(robots, directories, strict=True)
+    ]  # fmt: skip
+    try:
+        with TerminalListener(f"{len(robots)} robots · {budget.name}") as terminal:
+            terminal.say(f"measuring {len(robots)} robots on {task} (preset {budget.name})")
+            bar = FleetBar(
+                terminal, sum(order.env_steps for order in orders if not _done(order.out))
+            )
+            told = [replace(o, listener=OneOfFleet(bar, o.out.name)) for o in orders]
+            measure_robots(told, where)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"the same command goes on in {out}") from None
+    return directories
+
+
+def names_of(robots: Sequence[str]) -> list[str]:
+    """The folder of each robot: the last part of what it was called.
+
+    Example:
+        >>> names_of(["builtin:vanilla", "runs/robot-1/"])
+        ['vanilla', 'robot-1']
+
+    Raises:
+        UserError: Two would share one.
+    """
+    names: dict[str, str] = {}
+    for robot in robots:
+        last = robot.removeprefix("builtin:").rstrip("/").rpartition("/")[2]
+        name = re.sub(r"[^\w.+-]", "-", last).strip(".") or "robot"
+        if name in names:
+            raise UserError(
+                f"--robots {names[name]!r} and {robot!r} would both be measured in the folder "
+                f"{name!r}: rename one, or measure it with `rigid frontier` and compare directories"
+            )
+        names[name] = robot
+    return list(names)
+
+
+def _done(directory: Path) -> bool:
+    return (directory / "frontier.json").exists()
+
+
+class FleetBar:
+    """The terminal's one bar for all robots of a fleet."""
+
+    def __init__(self, terminal: TerminalListener, env_steps: int) -> None:
+        self.terminal, self._expected, self._begun = terminal, env_steps, 0
+
+    def begin(self, env_steps: int) -> None:
+        """One more robot is under way."""
+        self._begun += env_steps
+        # Robots that were complete but for new seeds are not expected.
+        self.terminal.expect(max(self._expected, self._begun))
+
+
+class OneOfFleet:
+    """Listens to the measurement of one robot."""
+
+    def __init__(self, bar: FleetBar, name: str) -> None:
+        self._bar, self._name = bar, name
+
+    def begin(self, env_steps: int, seconds: float) -> None:
+        """Its time alone says nothing of the fleet's."""
+        del seconds
+        self.say(f"{env_steps:,} training steps")
+        self._bar.begin(env_steps)
+
+    def advance(self, env_steps: int) -> None:
+        """Steps done since the last call."""
+        self._bar.terminal.advance(env_steps)
+
+    def say(self, text: str) -> None:
+        """A line for the user."""
+        self._bar.terminal.say(f"{self._name}: {text}")
