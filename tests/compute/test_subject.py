@@ -41,3 +41,11 @@ def test_a_file_that_is_named_goes_before_the_one_beside_the_robot(subject, tmp_
 
 def test_a_robot_without_episodes_beside_it_has_none(subject):
     assert canonical_path(subject) is None
+
+
+def test_no_recording_that_people_make_holds_the_episodes_of_the_referee(subject):
+    draws = [replace(subject, canonical_draw=draw) for draw in range(100)]
+    rulers = {draw.ruler_seed for draw in draws}
+    assert len(rulers) == len(draws)
+    assert rulers.isdisjoint(range(1_000_000))
+    assert rulers.isdisjoint(draw.search_seed for draw in draws)

@@ -13,6 +13,9 @@ from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 
 CANONICAL_FILE = "canonical.npz"
+_FIRST_RULER_SEED = 2**32
+"""Beyond what people choose: a robot's own episodes, or those of `rigid record --seed 1`, must not
+be the very episodes that the referee judges by. Ours."""
 
 
 @dataclass(frozen=True)
@@ -33,13 +36,13 @@ class Subject:
 
     @property
     def search_seed(self) -> int:
-        """Of the recording that the search sees."""
-        return 2 * self.canonical_draw
+        """Of the recording that the search sees, where no file holds its episodes."""
+        return self.canonical_draw
 
     @property
     def ruler_seed(self) -> int:
         """Of the recording that referees see; no recording's seed serves twice, over all draws."""
-        return 2 * self.canonical_draw + 1
+        return _FIRST_RULER_SEED + self.canonical_draw
 
 
 def load_players(subject: Subject) -> tuple[Policy, GaussianPolicy]:
