@@ -64,7 +64,10 @@ def test_compare_as_json_has_the_hull_beside_the_headline_numbers(rigid, two_run
 
 def test_compare_takes_two_or_more(rigid, two_runs):
     code, _, err = rigid("compare", two_runs[0])
-    assert (code, err) == (2, "rigid: compare takes two run directories or more\n")
+    assert (code, err) == (
+        2,
+        "rigid: compare takes two or more: run directories, or --robots to be measured\n",
+    )
 
 
 def test_compare_refuses_the_same_directory_twice(rigid, two_runs):

@@ -45,7 +45,10 @@ def test_robots_are_measured_into_their_folders_then_compared(compare, toys, oth
 
 REFUSED = {
     "no place": (("--robots", "a", "b"), "--robots need --out DIR, where they are measured"),
-    "one robot": (("--robots", "a", "--out", "o"), "compare takes two run directories or more"),
+    "one robot": (
+        ("--robots", "a", "--out", "o"),
+        "compare takes two or more: run directories, or --robots to be measured",
+    ),
     "no robots": (
         ("runs/a", "runs/b", "--executor", "ray"),
         "--executor is for --robots: name the robots to be measured",

@@ -103,6 +103,10 @@ BAD_INPUT = {
     "lambdas": (["--lambdas", "a"], "--lambdas 'a': write numbers"),
     "memory": (["--memory", "0"], "memory is 0, but an adversary sees at least 1 observation"),
     "budget": (["--budget", "30"], "--budget '30': write a time as 90s, 30m or 2h"),
+    "a cluster's budget": (
+        ["--budget", "30m", "--executor", "ray"],
+        "--budget times this machine, not --executor ray: leave it out, or choose --preset and",
+    ),
     "short budget": (["--budget", "1s"], "--budget is too short for preset 'tiny'"),
     "canonical": (["--canonical", "none.npz"], "none.npz does not exist: record it"),
 }

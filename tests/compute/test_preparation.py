@@ -41,7 +41,7 @@ def referee_features(found):
     return np.concatenate([fold.train, fold.validation, fold.test])
 
 
-@pytest.mark.parametrize(("draw", "search", "referee"), [(0, 0, 2**32), (1, 1, 2**32 + 1)])
+@pytest.mark.parametrize(("draw", "search", "referee"), [(0, 0, 2**31), (1, 1, 2**31 + 1)])
 def test_each_draw_records_with_two_seeds_of_its_own(draw, search, referee, prepared, pair):
     task, found = FilmedReach(), prepared[draw]
     seen = record(task, *pair, episodes=TINY.search_canonical, seed=search, provenance={})

@@ -8,7 +8,8 @@ import sys
 import pytest
 
 from rigid.compute.executors import find_executor
-from rigid.compute.ray_executor import RayExecutor
+from rigid.compute.provenance import source_hash
+from rigid.compute.ray_executor import RayExecutor, refuse_other_rigid
 from rigid.errors import UserError
 
 
@@ -76,3 +77,17 @@ def test_without_ray_the_user_is_told_how_to_install_it(monkeypatch):
     with pytest.raises(UserError) as caught:
         find_executor("ray")
     assert str(caught.value) == "the executor ray needs Ray: pip install 'rigid-frontier[ray]'"
+
+
+def test_a_worker_with_another_rigid_is_refused_with_the_cure(tmp_path):
+    (tmp_path / "one.py").write_text("x = 1")
+    before = source_hash(tmp_path)
+    refuse_other_rigid(source_hash(tmp_path), before)
+    (tmp_path / "one.py").write_text("x = 2")
+    after = source_hash(tmp_path)
+    with pytest.raises(UserError) as caught:
+        refuse_other_rigid(after, before)
+    assert str(caught.value) == (
+        f"a worker runs another RIGID (source {after[:8]}, here {before[:8]}), whose numbers are "
+        "not these: install the same on every node; the same command goes on"
+    )

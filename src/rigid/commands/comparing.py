@@ -63,24 +63,33 @@ class CompareCommand:
         """Prints the table."""
         from rigid.frontier.comparison import compare
 
-        directories = (*self.directories, *self._measured())
-        names = _names(directories)
-        frontiers, identities = {}, {}
-        for name, directory in zip(names, directories, strict=True):
-            frontiers[name], identities[name] = _load(directory)
+        self._check_options()
+        _names(self.directories)  # Bad ones are refused before any hours pass.
+        given = [_load(directory) for directory in self.directories]
+        measured = self._measured()
+        names = _names((*self.directories, *measured))
+        loaded = [*given, *(_load(directory) for directory in measured)]
+        frontiers = {name: frontier for name, (frontier, _) in zip(names, loaded, strict=True)}
+        identities = {name: identity for name, (_, identity) in zip(names, loaded, strict=True)}
         rows = compare(frontiers, identities)
         print(json.dumps(as_json(rows), indent=1) if self.json else table(rows))
         return 0
 
-    def _measured(self) -> list[Path]:
-        """The run directories of `--robots`, complete."""
+    def _check_options(self) -> None:
+        """Refuses what does not go together."""
         if len(self.directories) + len(self.robots) < 2:
-            raise UserError("compare takes two run directories or more")
+            raise UserError(
+                "compare takes two or more: run directories, or --robots to be measured"
+            )
         if not self.robots:
             self._refuse_measuring()
-            return []
-        if self.out is None:
+        elif self.out is None:
             raise UserError("--robots need --out DIR, where they are measured")
+
+    def _measured(self) -> list[Path]:
+        """The run directories of `--robots`, complete."""
+        if self.out is None:
+            return []
         from rigid.commands.fleet import measure_fleet
 
         return measure_fleet(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import tyro
 
 from rigid.commands.parsing import parse_budget, parse_lambdas, parse_seeds
+from rigid.errors import UserError
 
 if TYPE_CHECKING:
     from rigid.frontier.result import Frontier
@@ -53,7 +54,7 @@ class FrontierCommand:
     features: Annotated[str, _shown_as(metavar="NAMES")] = "default"
     """What naturalness sees: default, observation, observation+action, or the task's by name."""
     budget: Annotated[str | None, _shown_as(metavar="TIME")] = None
-    """Fit the preset to a time: 90s, 30m, 2h."""
+    """Fit the preset to a time of this machine: 90s, 30m, 2h; not for a cluster."""
     executor: Annotated[str, _shown_as(metavar="WHERE")] = "local"
     """local, ray, or ray:HOST:PORT for a Ray cluster; the numbers are the same."""
     json: bool = False
@@ -112,6 +113,11 @@ def _measure(options: FrontierCommand) -> int:
     if seeds is not None:
         preset = replace(preset, seeds=seeds)
     if budget is not None:
+        if options.executor != "local":
+            raise UserError(
+                f"--budget times this machine, not --executor {options.executor}: leave it out, or "
+                "choose --preset and --seeds"
+            )
         preset = _fitted(preset, options, budget, lambdas)
     try:
         with TerminalListener(f"{options.robot} · {preset.name}") as listener:

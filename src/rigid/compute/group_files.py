@@ -40,7 +40,7 @@ def write_group(directory: Path, plan: GroupPlan, files: Mapping[str, bytes]) ->
 
 def _patterns(plan: GroupPlan) -> Iterator[str]:
     """Names with a leading dot are of writes that were cut off; no pattern matches them."""
-    yield f"groups/{plan.name}.*"
+    yield f"groups/{plan.name}.[!p]*"  # Progress is of one process and one moment.
     for index in range(len(plan.lambdas)):
         yield f"adversaries/{plan.member(index)}/[!.]*"
         yield f"referee/{plan.member(index)}.*"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import platform
 import shutil
 import subprocess
@@ -37,6 +38,14 @@ def provenance(command: Sequence[str]) -> dict[str, Any]:
 def versions() -> dict[str, str]:
     """Of the libraries whose numbers RIGID's are made of."""
     return {name: metadata.version(name) for name in _LIBRARIES}
+
+
+def source_hash(package: Path = Path(__file__).parents[1]) -> str:
+    """SHA-256 over the modules of a package: an editable one changes without its version."""
+    digest = hashlib.sha256()
+    for path in sorted(package.rglob("*.py")):
+        digest.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
 
 
 def _git_commit() -> str | None:

@@ -19,7 +19,8 @@ from typing import Any
 from rigid.compute.driving import drive
 from rigid.compute.group import GroupInputs, GroupPlan
 from rigid.compute.group_files import read_begun, write_group
-from rigid.compute.provenance import versions
+from rigid.compute.process_worker import progress_file
+from rigid.compute.provenance import source_hash, versions
 from rigid.compute.ray_joining import call_at, first_line, import_ray, joined, living_nodes
 from rigid.compute.ray_worker import Errand, Found, run_errand
 from rigid.compute.seed_search import SeedSearch
@@ -129,7 +130,9 @@ class RayWorkers:
         """Writes the files of a group into its run directory."""
         directory = search.inputs.directory
         found = _found(done, f"group {plan.name} of {directory}")
+        refuse_other_rigid(found.source, source_hash())
         write_group(directory, plan, found.files)
+        progress_file(directory, plan).unlink(missing_ok=True)  # Of a process that began it.
         search.clock.add(found.core_seconds)
         search.clock.keep()
         self._warn(search, found)
@@ -174,6 +177,15 @@ class RayWorkers:
                 )
 
 
+def refuse_other_rigid(there: str, here: str) -> None:
+    """Raises `UserError` unless worker and driver run the same RIGID, by their `source_hash`."""
+    if there != here:
+        raise UserError(
+            f"a worker runs another RIGID (source {there[:8]}, here {here[:8]}), whose numbers are "
+            "not these: install the same on every node; the same command goes on"
+        )
+
+
 def _found(reference: Any, what: str) -> Found:
     """What a worker brought back, or why there is nothing."""
     from ray import exceptions
@@ -186,8 +198,8 @@ def _found(reference: Any, what: str) -> Found:
         raise
     except exceptions.RayError as error:
         raise UserError(
-            f"{what} lost its worker {MAX_RETRIES + 1} times ({first_line(error)}): see that "
-            "workers have memory enough; the same command goes on"
+            f"{what} lost its workers ({first_line(error)}): see that they have memory enough; "
+            "the same command goes on"
         ) from None
     return found
 

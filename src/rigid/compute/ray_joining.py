@@ -64,6 +64,7 @@ def joined(address: str | None) -> Iterator[None]:
     if ray.is_initialized():
         yield
         return
+    address = address or os.environ.get("RAY_ADDRESS")  # Named by the user: never another one.
     before = os.environ.get(_AUTH_MODE)
     _join(ray, address)
     try:

@@ -49,6 +49,8 @@ class Found:
     """Processor time that it took [s]."""
     versions: Mapping[str, str]
     """Of the libraries that it ran with."""
+    source: str
+    """`source_hash` of the RIGID that it ran."""
 
 
 def run_errand(errand: Errand) -> Found:
@@ -64,7 +66,7 @@ def run_errand(errand: Errand) -> Found:
     spent = core_seconds()  # Loading JAX and the task counts.
     from rigid.compute.group import GroupPlan, run_group
     from rigid.compute.group_files import read_group, write_group
-    from rigid.compute.provenance import versions
+    from rigid.compute.provenance import source_hash, versions
 
     plan = GroupPlan(errand.seed, errand.round, errand.lambdas)
     with tempfile.TemporaryDirectory(prefix="rigid-") as place:
@@ -75,7 +77,7 @@ def run_errand(errand: Errand) -> Found:
         except UserError as error:
             raise UserError(str(error).replace(place, errand.directory)) from None
         files = read_group(directory, plan)
-    return Found(files, core_seconds() - spent, versions())
+    return Found(files, core_seconds() - spent, versions(), source_hash())
 
 
 def _inputs(errand: Errand) -> GroupInputs:
