@@ -99,5 +99,5 @@ def _measured_line(place: int, numbers: Measured) -> str:
         ends = numbers[name].interval
         bracket = "" if ends is None else f" [{ends.low:.3f}, {ends.high:.3f}]"
         cells.append(f"{numbers[name].mean:.3f}{bracket}")
-    seeds = list(numbers[NUMBERS[0]].by_seed)
+    seeds = sorted(map(int, numbers[NUMBERS[0]].by_seed))
     return f"| {place} | {seeds[0]} to {seeds[-1]} | {' | '.join(cells)} |"

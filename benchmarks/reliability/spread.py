@@ -97,7 +97,7 @@ def measurement_rows(measured: Sequence[Measured]) -> list[Row]:
                 "high": None if interval is None else interval.high,
                 "deviation_over_seeds": float(np.std(list(number.by_seed.values()), ddof=1)),
                 "repeat_spread": repeat_spread(number),
-                "seeds": " ".join(number.by_seed),
+                "seeds": " ".join(sorted(number.by_seed, key=int)),
             })  # fmt: skip
     return rows
 

@@ -88,3 +88,8 @@ def test_what_measurements_add_beyond_their_seeds_is_found():
     found = list(spreads(added=0.1))
     assert np.sqrt(np.mean([one.added**2 for one in found])) == pytest.approx(0.1, abs=0.01)
     assert np.mean([one.low > 1 for one in found]) > 0.8
+
+
+def test_seeds_are_listed_as_numbers_and_not_as_words():
+    seen = Number({"10": 0.5, "9": 0.4})
+    assert measurement_rows([dict.fromkeys(NUMBERS, seen)])[0]["seeds"] == "9 10"
