@@ -91,3 +91,10 @@ def test_a_worker_with_another_rigid_is_refused_with_the_cure(tmp_path):
         f"a worker runs another RIGID (source {after[:8]}, here {before[:8]}), whose numbers are "
         "not these: install the same on every node; the same command goes on"
     )
+
+
+def test_an_address_in_the_environment_is_joined_or_refused(free_port, monkeypatch):
+    monkeypatch.setenv("RAY_ADDRESS", f"127.0.0.1:{free_port}")
+    refused = rf"^no Ray cluster answers at 127\.0\.0\.1:{free_port} \("
+    with pytest.raises(UserError, match=refused), RayExecutor().workers():
+        pass

@@ -54,8 +54,8 @@ def joined(address: str | None) -> Iterator[None]:
     """Joins a cluster, and leaves it at the end; one that the program has joined before stays.
 
     Args:
-        address: HOST:PORT; None joins the Ray that runs on this machine, else starts one, which
-            ends with the block.
+        address: HOST:PORT; None joins the one that RAY_ADDRESS names or that runs on this machine,
+            else starts one, which ends with the block.
 
     Raises:
         UserError: It cannot be joined.
@@ -64,7 +64,9 @@ def joined(address: str | None) -> Iterator[None]:
     if ray.is_initialized():
         yield
         return
-    address = address or os.environ.get("RAY_ADDRESS")  # Named by the user: never another one.
+    if address is None and ":" in os.environ.get("RAY_ADDRESS", ""):
+        address = os.environ["RAY_ADDRESS"]  # Named by the user: that one or none.
+        call_at(address)
     before = os.environ.get(_AUTH_MODE)
     _join(ray, address)
     try:
