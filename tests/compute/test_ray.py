@@ -31,6 +31,8 @@ from tests.compute.tiny import (
 )
 from tests.toys import untrained
 
+pytestmark = pytest.mark.slow  # Two nodes start and work: nearly a minute.
+
 PATIENCE = 120.0
 """Seconds until something counts as hung; a shared machine may be slow."""
 ELSEWHERE = """

@@ -15,6 +15,8 @@ from tests.compute.ray_cluster import RayCluster
 from tests.compute.ray_tasks import Doomed
 from tests.compute.tiny import Notes, measure_tiny, measured_once, without_times
 
+pytestmark = pytest.mark.slow  # Two nodes start and work: nearly a minute.
+
 SHORT = {"seeds": (0, 1, 2, 3), "lambdas": (0.1,)}
 """One group for each of four seeds: one ends on each node, and each node is in its second one."""
 
