@@ -88,10 +88,10 @@ class Workplace:
         preset = self.plan.presets()[part.preset]
         place = self.run_directory(part.robot, part.preset)
         before = len(self._seeds(part)) * preset.env_steps(self.task.horizon) // len(preset.seeds)
-        with _OneSeed(part.name, before) as listener:
+        with TerminalListener(part.name) as terminal:
             rigid.measure(
                 self.task, self._spec(part.robot), out=place, preset=preset, seeds=(part.seed,),
-                human=OWN_HUMAN, listener=listener,
+                human=OWN_HUMAN, listener=_OneSeed(terminal, before),
             )  # fmt: skip
 
     def frontiers(self, robot: Robot) -> dict[str, Frontier]:
@@ -140,20 +140,23 @@ class Workplace:
         return set(read_settings(run)["seeds"]) if run.frontier.exists() else set()
 
 
-class _OneSeed(TerminalListener):
+class _OneSeed:
     """A bar of what is new: steps of the seeds before it, which are only read, do not show."""
 
-    def __init__(self, what: str, before: int) -> None:
-        super().__init__(what)
-        self._before = before
+    def __init__(self, terminal: TerminalListener, before: int) -> None:
+        self._terminal, self._before = terminal, before
 
     def begin(self, env_steps: int, seconds: float) -> None:
         """Training starts."""
         new = env_steps - self._before
-        super().begin(new, seconds * new / env_steps)
+        self._terminal.begin(new, seconds * new / env_steps)
 
     def advance(self, env_steps: int) -> None:
         """Steps done since the last call."""
         old = min(self._before, env_steps)
         self._before -= old
-        super().advance(env_steps - old)
+        self._terminal.advance(env_steps - old)
+
+    def say(self, text: str) -> None:
+        """A line for the user."""
+        self._terminal.say(text)

@@ -6,6 +6,7 @@ Everything goes to standard error, so that `--json` leaves standard output to th
 from __future__ import annotations
 
 from types import TracebackType
+from typing import final
 
 from rich.console import Console
 from rich.progress import (
@@ -21,8 +22,12 @@ from rich.progress import (
 from rigid.commands.parsing import spoken
 
 
+@final
 class TerminalListener:
-    """Tells the terminal how a measurement goes on; use as a context manager."""
+    """Tells the terminal how a measurement goes on; use as a context manager.
+
+    A listener that shows something else holds one and passes on what it wants shown.
+    """
 
     def __init__(self, what: str) -> None:
         self._what = what
@@ -38,7 +43,7 @@ class TerminalListener:
         )
         self._task: TaskID | None = None
 
-    def __enter__(self) -> TerminalListener:  # noqa: PYI034 - beartype cannot check Self here
+    def __enter__(self) -> TerminalListener:
         return self
 
     def __exit__(
