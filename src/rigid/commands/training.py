@@ -128,10 +128,12 @@ def show_progress(what: str, iterations: int) -> Iterator[Callable[[Progress], N
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,
-        Progress,
         TextColumn,
         TimeElapsedColumn,
         TimeRemainingColumn,
+    )
+    from rich.progress import (
+        Progress as Bar,
     )
 
     columns = (
@@ -139,12 +141,12 @@ def show_progress(what: str, iterations: int) -> Iterator[Callable[[Progress], N
         TextColumn("left"), TimeRemainingColumn(),
     )  # fmt: skip
     console = Console(stderr=True)
-    with Progress(*columns, console=console) as bar:
+    with Bar(*columns, console=console) as bar:
         task = bar.add_task(what, total=iterations)
 
-        def report(progress: object) -> None:
-            seen = f"return {progress.mean_return:.1f} · success {progress.success:.2f}"  # type: ignore[attr-defined]
-            done = progress.iteration + 1  # type: ignore[attr-defined]
+        def report(progress: Progress) -> None:
+            seen = f"return {progress.mean_return:.1f} · success {progress.success:.2f}"
+            done = progress.iteration + 1
             bar.update(task, completed=done, description=f"{what} · {seen}")
             if not console.is_terminal and done % 10 == 0:  # A bar does not show in a log.
                 console.print(f"{what} {done}/{iterations} · {seen}", highlight=False)
