@@ -114,7 +114,11 @@ def without_times(frontier: Frontier) -> str:
 
 @contextmanager
 def interrupt_at(path: Path, ready=lambda: True):
-    """Sends SIGINT to this process, as Ctrl-C does, as soon as `path` exists and it is `ready`."""
+    """Sends SIGINT to this process, as Ctrl-C does, as soon as `path` exists and it is `ready`.
+
+    A suite that a shell runs in its background inherits that SIGINT is ignored.
+    """
+    inherited = signal.signal(signal.SIGINT, signal.default_int_handler)
     over = threading.Event()
 
     def watch():
@@ -130,6 +134,7 @@ def interrupt_at(path: Path, ready=lambda: True):
     finally:
         over.set()
         watcher.join()
+        signal.signal(signal.SIGINT, inherited)
 
 
 class Notes:
