@@ -9,13 +9,13 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from rigid.commands.training import show_progress
+from rigid.commands.training_progress import show_progress
 from rigid.errors import UserError
 from rigid.files import first_difference
 from rigid.learning.personalisation import PersonalisationSettings
 from rigid.policies.loading import BUNDLED
 from rigid.policies.native import CARD_FILE, load_card
-from rigid.robots.recipes import train_vanilla
+from rigid.robots.vanilla import train_vanilla
 from rigid.tasks.protocol import Task
 
 TASK = "itch-scratching"

@@ -13,6 +13,7 @@ import numpy as np
 
 from rigid.policies.gaussian import GaussianParameters, GaussianPolicy
 from rigid.policies.networks import init_normaliser
+from rigid.policies.palm import MotionEncoder, PalmParameters, PalmPolicy
 from rigid.tasks.protocol import AgentSpec, Step, Summary
 
 SPEED = 0.2
@@ -159,6 +160,21 @@ def untrained(spec: AgentSpec, *, seed=0, memory=1, hidden=(8, 4), std=0.5) -> G
     log_std = _float32(np.full(spec.action_size, np.log(std)))
     parameters = GaussianParameters(network, log_std, init_normaliser(sizes[0]))
     return GaussianPolicy(parameters, memory=memory)
+
+
+def untrained_palm(spec: AgentSpec, *, seed=0, memory=4, hidden=(8, 4), latent=2) -> PalmPolicy:
+    """A random PALM policy of the right size, made without compiling anything."""
+    rng = np.random.default_rng([seed, 1])
+    size, width = spec.observation_size, 5
+    shapes = {"w": (2 * size, 3 * width), "u": (width, 3 * width), "b": (3 * width,)}
+    unit = {name: _float32(rng.standard_normal(shape)) for name, shape in shapes.items()}
+    mean = {
+        "w": _float32(rng.standard_normal((width, latent))),
+        "b": _float32(rng.standard_normal(latent)),
+    }
+    encoder = MotionEncoder(unit, mean, init_normaliser(size), init_normaliser(size))
+    head = untrained(AgentSpec(size + latent, spec.action_size), seed=seed, hidden=hidden)
+    return PalmPolicy(PalmParameters(encoder, head.parameters), memory=memory)
 
 
 def _float32(values: np.ndarray) -> jax.Array:

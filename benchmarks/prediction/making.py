@@ -11,12 +11,12 @@ from benchmarks.prediction.plan import HumanPlan, Plan
 from benchmarks.robots import OWN_HUMAN, TASK, RobotPlan, check_made, make_robot, refuse_other
 from benchmarks.study import once, say
 from rigid.commands.progress import TerminalListener
-from rigid.commands.training import show_progress
+from rigid.commands.training_progress import show_progress
 from rigid.compute.evaluation import evaluate
 from rigid.errors import UserError
 from rigid.policies.loading import load_policy, policy_hash
 from rigid.policies.native import CARD_FILE
-from rigid.robots.recipes import train_pair
+from rigid.robots.pair import train_pair
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import make_task
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rigid.commands.progress import TerminalListener
-from rigid.commands.training import show_progress
+from rigid.commands.training_progress import show_progress
 from rigid.learning.cooptimisation import Progress
 
 
@@ -18,6 +18,8 @@ from rigid.learning.cooptimisation import Progress
         (["vanilla", "--pair", "p", "--memory", "0"], "--memory is 0, but must be at least 1"),
         (["vanilla", "--pair", "p", "--episodes", "0"], "--episodes is 0"),
         (["vanilla", "--pair", "nowhere"], "nowhere holds no human/: give a directory of `rigid"),
+        (["gleave", "--pair", "p", "--population-iterations", "0"], "--population-iterations is 0"),
+        (["gleave", "--pair", "nowhere"], "nowhere holds no human/: give a directory of `rigid"),
         (["co-optimize", "--task", "toy-rich"], "unknown task 'toy-rich', did you mean"),
     ],
 )
@@ -28,6 +30,40 @@ def test_bad_input_exits_with_2_and_writes_nothing(rigid, toys, tmp_path, option
     assert (code, out) == (2, "")
     assert message in err
     assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--from", "nowhere"], "nowhere/frontier.json does not exist: run `rigid frontier`"),
+        (["--from", "r", "--rounds", "0"], "--rounds is 0, but must be at least 1"),
+        (["--from", "r", "--share", "1"], "--share is 1, but must lie between 0 and 1"),
+        (["--from", "r", "--naturalness", "0.8", "0.2"], "--naturalness 0.8 0.2 must be LOW HIGH"),
+        (["--from", "r", "--adversaries", "0"], "--adversaries is 0, but must be at least 1"),
+    ],
+)
+def test_robust_gt_refuses_bad_input_and_writes_nothing(rigid, tmp_path, options, message):
+    code, out, err = rigid("train", "robust-gt", *options, "--out", tmp_path / "new")
+    assert (code, out) == (2, "")
+    assert message in err
+    assert not (tmp_path / "new").exists()
+
+
+def test_robust_gt_trains_on_and_names_a_search_that_no_training_saw(
+    rigid, toys, single_run, tmp_path, monkeypatch
+):
+    from rigid.tasks import registry
+    from tests.compute.tiny import FilmedReach
+
+    recipe = registry._Recipe(FilmedReach, None)
+    monkeypatch.setitem(registry._BUILTIN, "toy-reach", lambda: recipe)
+    code, out, err = rigid(
+        "train", "robust-gt", "--from", single_run.directory, "--iterations", 1,
+        "--naturalness", 0, 1, "--out", tmp_path / "robust",
+    )  # fmt: skip
+    assert code == 0, err
+    assert f"rigid frontier --robot {tmp_path / 'robust'} --human {toys / 'human'}" in out
+    assert "--preset tiny --seeds 1..2" in out
 
 
 def test_a_place_that_cannot_be_written_exits_with_2(rigid, toys, tmp_path):

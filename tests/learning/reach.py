@@ -24,6 +24,46 @@ class OpenReach(ToyReach):
         return OpenWorld(self, batch)
 
 
+class ShownReach(ToyReach):
+    """Says that the hand shows the human; `varied`, the goal may lie anywhere between -1 and 1."""
+
+    shown_human = ("hand",)
+
+    def __init__(self, *, seeing=False, varied=False, **parameters):
+        super().__init__(**parameters)
+        self.seeing, self.varied = seeing, varied
+        if seeing:
+            self.robot = AgentSpec(3, 1, ("robot", "hand", "goal"))
+
+    def diversified(self):
+        return ShownReach(seeing=self.seeing, varied=True)
+
+    def seeing_the_itch(self):
+        return ShownReach(seeing=True, varied=self.varied)
+
+    def make_world(self, batch, *, threads=0):
+        del threads
+        world = (OpenWorld if self.seeing else ToyWorld)(self, batch)
+        return VariedWorld(world) if self.varied else world
+
+    def describe(self):
+        return {**super().describe(), "varied": self.varied}
+
+
+class VariedWorld:
+    """Worlds whose goals are drawn anywhere between -1 and 1."""
+
+    def __init__(self, world):
+        self._world, self.batch = world, world.batch
+        self.step, self.summary, self.snapshot = world.step, world.summary, world.snapshot
+
+    def reset(self, seeds):
+        self._world.reset(seeds)
+        share = [np.random.default_rng([7, int(seed)]).uniform() for seed in seeds]
+        self._world._goal *= share
+        return self._world._look(np.zeros(self.batch))
+
+
 class OpenWorld(ToyWorld):
     """B episodes of `OpenReach`."""
 

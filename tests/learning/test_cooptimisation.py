@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from rigid.learning import cooptimisation
-from rigid.learning.cooptimisation import CoOptimisationSettings, co_optimise, noise_at, start_pair
+from rigid.learning.cooptimisation import CoOptimisationSettings, co_optimise, noise_at, start_team
 from rigid.learning.ppo import PPOSettings
+from rigid.learning.rollout import play, policy_actor
+from rigid.policies.gaussian import GaussianPolicy
 from tests.learning.reach import OpenReach, bitwise_equal
+from tests.toys import Pointer
 
 TASK = OpenReach()
 SETTINGS = CoOptimisationSettings(
@@ -58,14 +61,14 @@ def test_stopping_and_going_on_changes_nothing(trained):
 
 
 def test_another_seed_is_another_pair():
-    one, other = (start_pair(TASK, SETTINGS, seed) for seed in (0, 1))
+    one, other = (start_team(TASK, SETTINGS, seed) for seed in (0, 1))
     assert not bitwise_equal(one, other)
-    assert not bitwise_equal(one.robot.policy.network, one.human.policy.network)
+    assert not bitwise_equal(one.robot.policy.network, one.humans[0].policy.network)
 
 
 def test_the_noise_that_stays_is_the_last_one(trained):
     final, *_ = trained
-    for learner in final:
+    for learner in (final.robot, *final.humans):
         np.testing.assert_allclose(np.exp(learner.policy.log_std), SETTINGS.std[1], rtol=1e-5)
 
 
@@ -76,12 +79,32 @@ def test_noise_falls_to_its_last_value_and_stays():
 
 
 def test_critics_see_what_both_see():
-    pair = start_pair(TASK, SETTINGS, 0)
+    pair = start_team(TASK, SETTINGS, 0)
     seen = TASK.robot.observation_size + TASK.human.observation_size
-    for learner in pair:
+    for learner in (pair.robot, *pair.humans):
         assert learner.critic_normaliser.mean.shape == (seen,)
 
 
 def test_every_iteration_uses_the_same_compiled_update(trained):
     *_, compiled = trained
     assert len(set(compiled)) == 1
+
+
+def test_a_robot_learns_with_a_human_who_learns_no_more():
+    """The grown-up points with the hand; the robot of the team serves a human it never changed."""
+    start = start_team(TASK, SETTINGS, 0), 0
+    team = co_optimise(TASK, SETTINGS, seed=0, start=start, grown_up=[Pointer()])
+    seeds, rng = np.arange(100), np.random.default_rng(0)
+    robot = policy_actor(GaussianPolicy(team.robot.policy), 100, None)
+    episodes = play(TASK, TASK.make_world(100), seeds, robot, policy_actor(Pointer(), 100, rng))
+    assert episodes.returns.mean() > -5
+
+
+def test_every_human_of_a_team_learns_from_its_own_episodes():
+    settings = CoOptimisationSettings(iterations=1, episodes=12, hidden=(4,), ppo=SETTINGS.ppo)
+    start = start_team(TASK, settings, 0, humans=2)
+    one, other = co_optimise(TASK, settings, seed=0, start=(start, 0)).humans
+    for before, after in zip(start.humans, (one, other), strict=True):
+        assert after.critic_normaliser.count == pytest.approx(6 * TASK.horizon, rel=1e-3)
+        assert not bitwise_equal(before.policy.network, after.policy.network)
+    assert not bitwise_equal(one.policy.network, other.policy.network)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import jax
 import numpy as np
@@ -10,7 +10,9 @@ import pytest
 
 from rigid.learning import personalisation
 from rigid.learning.personalisation import (
+    Partner,
     PersonalisationSettings,
+    continue_robot,
     noise_at,
     personalise,
     start_robot,
@@ -22,7 +24,8 @@ from tests.learning.reach import OpenReach, bitwise_equal, goer
 from tests.toys import Pointer, ToyReach
 
 TASK, PRIVILEGED = ToyReach(), OpenReach()
-EXPERT = goer(0)
+EXPERT = GaussianPolicy(goer(0))
+PARTNERS = [Partner(Pointer(), EXPERT)]
 SETTINGS = PersonalisationSettings(
     iterations=25,
     episodes=48,
@@ -66,8 +69,7 @@ def trained():
     robot = personalise(
         TASK,
         PRIVILEGED,
-        EXPERT,
-        [Pointer()],
+        PARTNERS,
         SETTINGS,
         seed=0,
         report=report,
@@ -83,7 +85,7 @@ def mean_return(task, robot):
 
 def test_the_student_nearly_returns_what_the_expert_does(trained):
     """The expert starts at once; the student must first see the hand move. Blind: -10."""
-    expert = mean_return(PRIVILEGED, GaussianPolicy(EXPERT))
+    expert = mean_return(PRIVILEGED, EXPERT)
     student = mean_return(TASK, GaussianPolicy(trained[0].policy))
     assert expert > -2.5
     assert expert - 2.0 < student < expert
@@ -100,13 +102,13 @@ def test_the_rollout_hides_the_goal_from_the_student_alone():
     learner = start_robot(TASK, PRIVILEGED, SETTINGS, 0)
     world, rng = PRIVILEGED.make_world(SETTINGS.episodes), np.random.default_rng(0)
     episodes = personalisation._play(
-        PRIVILEGED, world, learner, [Pointer()], settings=SETTINGS, rng=rng
+        PRIVILEGED, world, learner, PARTNERS, settings=SETTINGS, rng=rng
     )
-    rollout = personalisation._rollout(episodes, EXPERT, 2, SETTINGS)
+    rollout = personalisation._rollout(episodes, learner, PARTNERS, 2, SETTINGS)
     seen, goal = episodes.robot_observation, episodes.features[..., 1]
     np.testing.assert_array_equal(rollout.observation, seen[..., :2])
     np.testing.assert_array_equal(rollout.critic_observation[..., 2], goal)
-    clipped = np.clip(GaussianPolicy(EXPERT).act(seen.reshape(-1, 3), (), None)[0], -1, 1)
+    clipped = np.clip(EXPERT.act(seen.reshape(-1, 3), (), None)[0], -1, 1)
     np.testing.assert_allclose(rollout.expert_action.reshape(-1, 1), clipped, atol=1e-6)
 
 
@@ -116,8 +118,7 @@ def test_stopping_and_going_on_changes_nothing(trained):
     resumed = personalise(
         TASK,
         PRIVILEGED,
-        EXPERT,
-        [Pointer()],
+        PARTNERS,
         SETTINGS,
         seed=0,
         start=(learners[behind - 1], behind),
@@ -132,9 +133,11 @@ def test_every_iteration_uses_the_same_compiled_update(trained):
 
 def test_humans_share_the_episodes_evenly():
     learner = start_robot(TASK, PRIVILEGED, SETTINGS, 0)
-    humans = [Constant(action) for action in (-1.0, 0.0, 1.0)]
+    partners = [Partner(Constant(action), EXPERT) for action in (-1.0, 0.0, 1.0)]
     world, rng = PRIVILEGED.make_world(SETTINGS.episodes), np.random.default_rng(0)
-    episodes = personalisation._play(PRIVILEGED, world, learner, humans, settings=SETTINGS, rng=rng)
+    episodes = personalisation._play(
+        PRIVILEGED, world, learner, partners, settings=SETTINGS, rng=rng
+    )
     np.testing.assert_array_equal(
         episodes.human_action[..., 0], np.tile(np.repeat([-1, 0, 1], 16), (TASK.horizon, 1))
     )
@@ -149,3 +152,44 @@ def test_another_seed_is_another_robot():
     one, other = (start_robot(TASK, PRIVILEGED, SETTINGS, seed) for seed in (0, 1))
     assert not bitwise_equal(one, other)
     assert jax.tree.structure(one) == jax.tree.structure(other)
+
+
+def test_episodes_are_split_by_shares():
+    learner = start_robot(TASK, PRIVILEGED, SETTINGS, 0)
+    partners = [Partner(Constant(-1.0), EXPERT, 0.75), Partner(Constant(1.0), None, 0.25)]
+    world, rng = PRIVILEGED.make_world(SETTINGS.episodes), np.random.default_rng(0)
+    episodes = personalisation._play(
+        PRIVILEGED, world, learner, partners, settings=SETTINGS, rng=rng
+    )
+    assert (episodes.human_action[..., 0] == 1).sum(axis=1).tolist() == [12] * TASK.horizon
+
+
+def test_without_an_expert_cloning_asks_for_what_the_student_does():
+    learner = start_robot(TASK, PRIVILEGED, SETTINGS, 0)
+    partners = [Partner(Pointer(), EXPERT), Partner(Pointer(), None)]
+    world, rng = PRIVILEGED.make_world(SETTINGS.episodes), np.random.default_rng(0)
+    episodes = personalisation._play(
+        PRIVILEGED, world, learner, partners, settings=SETTINGS, rng=rng
+    )
+    rollout = personalisation._rollout(episodes, learner, partners, 2, SETTINGS)
+    seen = episodes.robot_observation[:, 24:, :2].reshape(-1, 2)
+    own, _ = GaussianPolicy(learner.policy).act(seen, (), None)
+    np.testing.assert_allclose(rollout.expert_action[:, 24:].reshape(-1, 1), own, atol=1e-6)
+
+
+def test_reward_alone_teaches_a_robot_whose_human_nobody_knows():
+    """This human points away from the goal, so that the robot must learn to go against the hand."""
+    settings = replace(SETTINGS, ppo=replace(SETTINGS.ppo, policy_coefficient=1.0))
+    liar = Pointer(honest=False)
+    learner = personalise(TASK, PRIVILEGED, [Partner(liar, None)], settings, seed=0)
+    seeds, rng = np.arange(100), np.random.default_rng(0)
+    robot = policy_actor(GaussianPolicy(learner.policy), 100, None)
+    returns = play(TASK, TASK.make_world(100), seeds, robot, policy_actor(liar, 100, rng)).returns
+    assert returns.mean() > -8  # Doing nothing returns -10, following the hand less.
+
+
+def test_a_robot_that_goes_on_acts_as_before_with_a_new_critic():
+    robot = GaussianPolicy(start_robot(TASK, PRIVILEGED, SETTINGS, 0).policy)
+    learner = continue_robot(TASK, PRIVILEGED, SETTINGS, robot, 1)
+    assert bitwise_equal(learner.policy, robot.parameters)
+    assert bitwise_equal(learner.critic, start_robot(TASK, PRIVILEGED, SETTINGS, 1).critic)

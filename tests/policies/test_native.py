@@ -9,16 +9,15 @@ import pytest
 from safetensors.numpy import load_file, save_file
 
 from rigid.errors import UserError
+from rigid.policies.architecture import architecture_of, weights_of
 from rigid.policies.native import (
     CARD_FILE,
     WEIGHTS_FILE,
-    architecture_of,
     hash_weights,
     load_native,
     save_policy,
-    weights_of,
 )
-from tests.toys import ToyReach, untrained
+from tests.toys import ToyReach, untrained, untrained_palm
 
 TASK = ToyReach()
 
@@ -62,6 +61,37 @@ def test_a_loaded_policy_acts_as_the_saved_one(tmp_path, memory, hidden):
     np.testing.assert_array_equal(act(loaded), act(policy))
 
 
+def test_a_loaded_palm_policy_acts_as_the_saved_one(tmp_path):
+    policy = untrained_palm(TASK.human)
+    store(tmp_path, policy)
+    loaded, card = load_native(tmp_path)
+    np.testing.assert_array_equal(act(loaded), act(policy))
+    assert card.architecture.model_dump() == {
+        "kind": "palm",
+        "observation_size": 3,
+        "action_size": 1,
+        "memory": 4,
+        "hidden": (8, 4),
+        "encoder_hidden": 5,
+        "latent": 2,
+    }
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"memory": 101}, "memory: Input .* less than or equal to 100"),
+        ({"latent": 3}, r"encoder\.mean\.b has shape \(2,\), but the architecture .* \(3,\)"),
+        ({"kind": "gaussian"}, r"encoder\.change\.count is unknown to the architecture"),
+    ],
+)
+def test_a_card_that_does_not_fit_a_palm_policy_is_refused(tmp_path, changes, message):
+    store(tmp_path, untrained_palm(TASK.human))
+    edit_card(tmp_path, architecture=changes)
+    with pytest.raises(UserError, match=message):
+        load_native(tmp_path)
+
+
 def test_the_card_says_what_the_policy_is(tmp_path):
     store(tmp_path, untrained(TASK.human, memory=2), recipe="none", seed=3)
     card = load_native(tmp_path).card
@@ -102,8 +132,8 @@ def test_the_hash_ignores_where_a_policy_comes_from(tmp_path):
     assert store(tmp_path / "a", seed=1).sha256 == store(tmp_path / "b", seed=2).sha256
 
 
-def test_the_hash_changes_with_any_weight():
-    policy = untrained(TASK.human)
+@pytest.mark.parametrize("policy", [untrained(TASK.human), untrained_palm(TASK.human)])
+def test_the_hash_changes_with_any_weight(policy):
     architecture, weights = architecture_of(policy), weights_of(policy)
     hashes = {hash_weights(architecture, weights)}
     for name in weights:
@@ -166,7 +196,9 @@ def test_a_truncated_card_is_refused(tmp_path):
         pytest.param({"format": 2}, "version 2, but this RIGID reads up to 1", id="newer"),
         pytest.param({"agent": "dog"}, "agent: Input should be 'robot' or 'human'", id="agent"),
         pytest.param(
-            {"architecture": {"kind": "x"}}, "kind: Input should be 'gaussian'", id="kind"
+            {"architecture": {"kind": "x"}},
+            "architecture: Input tag 'x' .* expected tags: 'gaussian', 'palm'",
+            id="kind",
         ),
         pytest.param(
             {"architecture": {"memory": 0}}, "memory: Input .* greater than 0", id="memory"

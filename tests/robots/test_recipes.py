@@ -4,48 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import jax
 import numpy as np
 import pytest
 
 from rigid.data.episodes import load_episodes
 from rigid.errors import UserError
-from rigid.learning.cooptimisation import CoOptimisationSettings
-from rigid.learning.personalisation import PersonalisationSettings
-from rigid.learning.ppo import PPOSettings
 from rigid.policies.native import load_native
-from rigid.robots.recipes import train_pair, train_vanilla
+from rigid.robots.vanilla import train_vanilla
+from tests.robots.quick import ITERATIONS, PAIR, VANILLA, Seen, co_optimise, names, same
 from tests.toys import ToyReach
-
-ITERATIONS = 14
-PPO = PPOSettings(epochs=2, minibatch=40)
-PAIR = CoOptimisationSettings(iterations=ITERATIONS, episodes=8, hidden=(6,), ppo=PPO)
-VANILLA = PersonalisationSettings(
-    iterations=ITERATIONS, episodes=8, hidden=(6, 6), memory=2,
-    ppo=replace(PPO, cloning_coefficient=1.0, policy_coefficient=0.1),
-)  # fmt: skip
-
-
-class Seen:
-    """Remembers the iterations it was told of, and interrupts after one of them."""
-
-    def __init__(self, last=None):
-        self.iterations, self._last = [], last
-
-    def __call__(self, progress):
-        self.iterations.append(progress.iteration)
-        if progress.iteration == self._last:
-            raise KeyboardInterrupt
-
-
-def co_optimise(out, report=None, settings=PAIR, seed=0, task=None):
-    train_pair(task or ToyReach(), settings, seed=seed, out=out, report=report or Seen())
-    return out
-
-
-@pytest.fixture(scope="module")
-def pair(tmp_path_factory):
-    return co_optimise(tmp_path_factory.mktemp("pair"))
 
 
 @pytest.fixture(scope="module")
@@ -65,10 +32,6 @@ def vanilla(pair):
 @pytest.fixture(scope="module")
 def robot(vanilla, tmp_path_factory):
     return vanilla(tmp_path_factory.mktemp("robot"))
-
-
-def names(directory):
-    return {str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file()}
 
 
 def test_a_pair_is_two_policies_of_their_agents(pair):
@@ -98,11 +61,6 @@ def test_every_policy_says_how_it_was_made(pair, robot):
     assert made_by["recipe"] == "vanilla"
     assert made_by["human"] == human.sha256
     assert made_by["expert"] == load_native(pair / "robot").card.sha256
-
-
-def same(one, other):
-    mine, theirs = (load_native(path).policy.parameters for path in (one, other))
-    return all(jax.tree.leaves(jax.tree.map(np.array_equal, mine, theirs)))
 
 
 def test_an_interrupted_pair_ends_like_an_undisturbed_one(pair, tmp_path):

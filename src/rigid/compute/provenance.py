@@ -19,8 +19,12 @@ _LIBRARIES = ("mujoco", "jax", "jaxlib", "numpy", "optax", "scipy")
 
 def command_line() -> list[str]:
     """What the user typed."""
-    ours = Path(sys.argv[0]).stem in {"rigid", "__main__"}  # `python -m rigid` as well.
-    return ["rigid", *sys.argv[1:]] if ours else list(sys.argv)
+    program = Path(sys.argv[0])
+    if program.stem == "rigid" or program.parts[-2:] == ("rigid", "__main__.py"):
+        return ["rigid", *sys.argv[1:]]
+    if program.name == "__main__.py":  # A study of this repository.
+        return ["python", "-m", ".".join(program.parts[-3:-1]), *sys.argv[1:]]
+    return list(sys.argv)
 
 
 def provenance(command: Sequence[str]) -> dict[str, Any]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from rigid.errors import UserError
 from rigid.naturalness.features import DEFAULT
 from rigid.policies.gaussian import GaussianPolicy
-from rigid.policies.loading import BUNDLED, load_policy
+from rigid.policies.loading import BUNDLED, load_policy, policy_hash
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 
@@ -65,6 +67,26 @@ def load_players(subject: Subject) -> tuple[Policy, GaussianPolicy]:
             "starts from a human without memory: name a synthetic human trained so"
         )
     return robot, human
+
+
+def measured_robot(
+    spec: str, task: Task, identity: Mapping[str, Any], *, cure: str = "name it with --robot"
+) -> Policy:
+    """The robot of a finished run, from where it is now.
+
+    Args:
+        spec: As a user names it.
+        task: The run's.
+        identity: Of the run's settings.
+        cure: What to do about another robot; ends the message.
+
+    Raises:
+        UserError: There is no robot, or it is not the one that was measured.
+    """
+    robot = load_policy(spec, task=task, agent="robot")
+    if policy_hash(robot) != identity.get("robot"):
+        raise UserError(f"robot {spec!r} is not the one that was measured: {cure}")
+    return robot
 
 
 def canonical_path(subject: Subject) -> Path | None:

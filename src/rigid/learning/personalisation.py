@@ -2,29 +2,33 @@
 
 The paper's Vanilla RL (appendix 'Learning Robot Policies'): PPO with a behaviour-cloning loss
 towards the robot of the co-optimised pair. That expert sees the hidden goal and is asked at every
-state the student visits, so the student learns from its own mistakes.
+state the student visits, so the student learns from its own mistakes. With more partners than one
+the same training makes the robots of the other recipes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Float
 
 from rigid.learning.cooptimisation import Progress
 from rigid.learning.learner import Learner, Rollout, with_noise
-from rigid.learning.ppo import PPOSettings, init_learner, ppo_update
-from rigid.learning.rollout import Trajectories, play, policy_actor
-from rigid.policies.gaussian import (
-    GaussianParameters,
-    GaussianPolicy,
-    history_windows,
-    mean_action,
+from rigid.learning.ppo import PPOSettings, init_learner, ppo_update, start_learner
+from rigid.learning.rollout import (
+    Student,
+    Trajectories,
+    blocks_of,
+    play,
+    policy_actor,
+    side_by_side,
+    student_actor,
 )
+from rigid.policies.gaussian import GaussianPolicy, history_windows, mean_action
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task, World
 
@@ -60,6 +64,19 @@ class PersonalisationSettings:
     gradient norm clipped at 0.5 instead of 20, which never bites."""
 
 
+@dataclass(frozen=True)
+class Partner:
+    """A human that a robot learns to assist."""
+
+    human: Policy
+    expert: GaussianPolicy | None
+    """A robot whose advice is cloned wherever the student goes with this human. It sees the first
+    of the numbers that the privileged task shows, as many as it was made for. None: nobody knows
+    better, and reward alone teaches."""
+    share: float = 1.0
+    """Of the episodes, relative to those of the others."""
+
+
 _update = jax.jit(ppo_update, static_argnames="settings")
 _mean = jax.jit(mean_action)
 
@@ -81,29 +98,42 @@ def start_robot(
     )
 
 
+def continue_robot(
+    task: Task,
+    privileged: Task,
+    settings: PersonalisationSettings,
+    robot: GaussianPolicy,
+    seed: int,
+) -> Learner:
+    """A learner that acts as `robot`, with a new critic: policies on disk have none."""
+    fresh = start_robot(task, privileged, settings, seed)
+    return start_learner(settings.ppo, robot.parameters, fresh.critic, fresh.critic_normaliser)
+
+
 def personalise(
     task: Task,
     privileged: Task,
-    expert: GaussianParameters,
-    humans: Sequence[Policy],
+    partners: Sequence[Partner],
     settings: PersonalisationSettings,
     *,
     seed: int,
     start: tuple[Learner, int] | None = None,
     report: Callable[[Progress, Learner], None] = lambda *_: None,
 ) -> Learner:
-    """Trains a robot for `humans`; the first one is the synthetic human.
+    """Trains a robot for its partners.
 
     Args:
         task: The task as the robot will meet it.
         privileged: The same task whose robot observation ends in the hidden numbers; the student
             sees the part before them.
-        expert: The co-optimised robot, which acts on the privileged observation.
-        humans: Every iteration splits its episodes evenly among them.
+        partners: Every iteration splits its episodes among them by their shares.
         settings: Budget and losses.
         seed: Everything random comes from it.
         start: A learner and the number of iterations that it has behind it.
         report: Called after every iteration.
+
+    Raises:
+        ValueError: A partner's share is too small for a single episode.
     """
     visible = task.robot.observation_size
     key = jax.random.key(seed)
@@ -112,8 +142,8 @@ def personalise(
     for iteration in range(done, settings.iterations):
         learner = with_noise(learner, noise_at(settings, iteration))
         rng = np.random.default_rng([seed, iteration])
-        episodes = _play(privileged, world, learner, humans, settings=settings, rng=rng)
-        rollout = _rollout(episodes, expert, visible, settings)
+        episodes = _play(privileged, world, learner, partners, settings=settings, rng=rng)
+        rollout = _rollout(episodes, learner, partners, visible, settings)
         step_key = jax.random.fold_in(key, iteration)
         learner, _ = _update(learner, rollout, step_key, settings=settings.ppo)
         success = float(np.mean(episodes.summary.success))
@@ -132,48 +162,86 @@ def _play(
     task: Task,
     world: World,
     learner: Learner,
-    humans: Sequence[Policy],
+    partners: Sequence[Partner],
     *,
     settings: PersonalisationSettings,
     rng: np.random.Generator,
 ) -> Trajectories:
-    seeds = rng.integers(2**31, size=settings.episodes)
     student = GaussianPolicy(learner.policy, memory=settings.memory)
-    state = student.initial_state(settings.episodes)
+    return play_with(task, world, student, partners, rng)
 
-    def robot(seen: np.ndarray) -> np.ndarray:
-        nonlocal state
-        action, state = student.sample(seen[:, : student.observation_size], state, rng)
-        return action
 
-    bounds = np.linspace(0, settings.episodes, len(humans) + 1).astype(int).tolist()
-    parts = list(pairwise(bounds))
+def play_with(
+    task: Task,
+    world: World,
+    student: Student,
+    partners: Sequence[Partner],
+    rng: np.random.Generator,
+) -> Trajectories:
+    """Plays an episode in every world, which the partners share in their order."""
+    seeds = rng.integers(2**31, size=world.batch)
+    robot = student_actor(student, world.batch, rng)
+    blocks = _blocks(partners, world.batch)
     actors = [
-        policy_actor(human, high - low, rng)
-        for human, (low, high) in zip(humans, parts, strict=True)
+        policy_actor(partner.human, block.stop - block.start, rng)
+        for partner, block in zip(partners, blocks, strict=True)
     ]
-
-    def human(observation: np.ndarray) -> np.ndarray:
-        rows = [act(observation[low:high]) for act, (low, high) in zip(actors, parts, strict=True)]
-        return np.concatenate(rows)
-
-    return play(task, world, seeds, robot, human)
+    return play(task, world, seeds, robot, side_by_side(actors, blocks))
 
 
 def _rollout(
     episodes: Trajectories,
-    expert: GaussianParameters,
+    learner: Learner,
+    partners: Sequence[Partner],
     visible: int,
     settings: PersonalisationSettings,
 ) -> Rollout:
     seen = episodes.robot_observation
-    target = np.clip(np.asarray(_mean(expert, seen)), -1, 1)
+    student = GaussianPolicy(learner.policy, memory=settings.memory)
+    # Who has no advice says what the student does itself: cloning then moves nothing by itself.
+    advisers = [partner.expert or student for partner in partners]
+    windows = history_windows(seen[..., :visible], settings.memory)
+    blocks = _blocks(partners, seen.shape[1])
+    return rollout_of(episodes, windows, advisers, blocks, settings.reward_scale)
+
+
+def rollout_of(
+    episodes: Trajectories,
+    observation: Float[np.ndarray, "T N w"],
+    advisers: Sequence[GaussianPolicy],
+    blocks: Sequence[slice],
+    reward_scale: float,
+) -> Rollout:
+    """What a student learns from.
+
+    Args:
+        episodes: As the student played them, seen with the hidden numbers.
+        observation: What the student's network was given at every step.
+        advisers: One for each block, whose advice is cloned there.
+        blocks: Of the episodes, side by side.
+        reward_scale: Factor on the reward.
+    """
+    seen = episodes.robot_observation
+    advice = [
+        _advice(adviser, seen[:, block]) for adviser, block in zip(advisers, blocks, strict=True)
+    ]
     both = np.concatenate([seen, episodes.human_observation], axis=-1)
     return Rollout(
-        observation=jnp.asarray(history_windows(seen[..., :visible], settings.memory)),
+        observation=jnp.asarray(observation),
         critic_observation=jnp.asarray(both),
         action=jnp.asarray(episodes.robot_action),
-        reward=jnp.asarray(episodes.reward * settings.reward_scale),
+        reward=jnp.asarray(episodes.reward * reward_scale),
         weight=jnp.asarray(episodes.weight),
-        expert_action=jnp.asarray(target),
+        expert_action=jnp.asarray(np.concatenate(advice, axis=1)),
     )
+
+
+def _advice(expert: GaussianPolicy, seen: np.ndarray) -> np.ndarray:
+    """What `expert` would do at every step, shape (T, N, a)."""
+    windows = history_windows(seen[..., : expert.observation_size], expert.memory)
+    advice: np.ndarray = np.clip(np.asarray(_mean(expert.parameters, windows)), -1, 1)
+    return advice
+
+
+def _blocks(partners: Sequence[Partner], episodes: int) -> list[slice]:
+    return blocks_of(episodes, [partner.share for partner in partners])

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from rigid.policies.protocol import Policy
+from rigid.policies.protocol import Policy, State
 from rigid.tasks.protocol import Step, Summary, Task, World
 
 Actor = Callable[[Float[np.ndarray, "B o"]], Float[np.ndarray, "B a"]]
@@ -88,3 +89,62 @@ def policy_actor(policy: Policy, batch: int, rng: np.random.Generator | None) ->
         return action
 
     return act
+
+
+@runtime_checkable
+class Student(Protocol):
+    """A policy in training, which can tell what it did before it was clipped."""
+
+    observation_size: int
+
+    def initial_state(self, batch: int) -> State:
+        """The state before the first step of an episode."""
+        ...
+
+    def sample(
+        self, observation: Float[np.ndarray, "B o"], state: Any, rng: np.random.Generator | None
+    ) -> tuple[Float[np.ndarray, "B a"], Any]:
+        """Actions with noise, not clipped, and the next state."""
+        ...
+
+
+def student_actor(student: Student, batch: int, rng: np.random.Generator) -> Actor:
+    """As `policy_actor`; the student sees as many of the first numbers as it was made for."""
+    state = student.initial_state(batch)
+
+    def act(observation: np.ndarray) -> np.ndarray:
+        nonlocal state
+        action, state = student.sample(observation[:, : student.observation_size], state, rng)
+        return action
+
+    return act
+
+
+def side_by_side(actors: Sequence[Actor], blocks: Sequence[slice]) -> Actor:
+    """One actor of many, each of whom acts in its own block of worlds, in their order."""
+
+    def act(observation: np.ndarray) -> np.ndarray:
+        rows = [act(observation[block]) for act, block in zip(actors, blocks, strict=True)]
+        return np.concatenate(rows)
+
+    return act
+
+
+def blocks_of(episodes: int, shares: Sequence[float]) -> list[slice]:
+    """Splits N episodes into blocks side by side, as large as the shares ask for.
+
+    Args:
+        episodes: How many there are.
+        shares: Relative sizes, each above 0.
+
+    Example:
+        >>> blocks_of(96, [0.85, 0.15])
+        [slice(0, 81, None), slice(81, 96, None)]
+
+    Raises:
+        ValueError: A share is too small for a single episode.
+    """
+    ends = (episodes * np.cumsum([0.0, *shares]) / np.sum(shares) + 1e-9).astype(int)
+    if (np.diff(ends) < 1).any():
+        raise ValueError(f"{episodes} episodes cannot be split into shares {list(shares)}")
+    return [slice(low, high) for low, high in pairwise(ends.tolist())]

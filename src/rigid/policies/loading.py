@@ -11,15 +11,13 @@ from pathlib import Path
 
 from rigid.errors import UserError
 from rigid.files import json_text
-from rigid.policies.gaussian import GaussianPolicy
+from rigid.policies.architecture import NativePolicy, architecture_of, weights_of
 from rigid.policies.native import (
     CARD_FILE,
     Agent,
-    architecture_of,
     hash_weights,
     load_card,
     load_native,
-    weights_of,
 )
 from rigid.policies.passive import PassivePolicy
 from rigid.policies.protocol import Policy
@@ -100,7 +98,7 @@ def policy_hash(policy: Policy | Path | str) -> str:
         sizes = json_text({"kind": _PASSIVE, **asdict(policy)})
         return hashlib.sha256(sizes.encode()).hexdigest()
     stored = load_native(policy).policy if isinstance(policy, Path | str) else policy
-    if not isinstance(stored, GaussianPolicy):
+    if not isinstance(stored, NativePolicy):
         raise TypeError(f"a {type(stored).__name__} has no weights to hash")
     return hash_weights(architecture_of(stored), weights_of(stored))
 
@@ -120,7 +118,7 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
         return _load_directory(directory, _BUILTIN + name, task, agent)
 
 
-def _load_directory(directory: Path, spec: str, task: Task, agent: Agent) -> GaussianPolicy:
+def _load_directory(directory: Path, spec: str, task: Task, agent: Agent) -> NativePolicy:
     policy, card = load_native(directory)
     if card.agent != agent:
         raise UserError(f"{agent} {spec!r} is a policy of the {card.agent}: choose a {agent}'s")

@@ -1,61 +1,40 @@
 """RIGID's own policy format: a directory with weights and a card that says what they are.
 
-`policy.safetensors` holds float32 arrays (`network.0.w`, …, `log_std`, `normaliser.mean`, …) and
-`policy.json` the card: architecture, agent, task, provenance, and a hash that ties the two
-together. Neither can hold code, so a stranger's policy is safe to open.
+`policy.safetensors` holds float32 arrays (`network.0.w`, …, `log_std`, `normaliser.mean`, …; of a
+PALM policy `encoder.recurrent.w`, … as well) and `policy.json` the card: architecture, agent, task,
+provenance, and a hash that ties the two together. Neither can hold code, so a stranger's policy is
+safe to open.
 """
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-import jax.numpy as jnp
 import numpy as np
-from pydantic import BaseModel, ConfigDict, PositiveInt
+from pydantic import BaseModel, ConfigDict
 from safetensors import SafetensorError, deserialize
 from safetensors.numpy import save
 
 from rigid.errors import UserError
 from rigid.files import json_text, parse_header, read_bytes, write_atomically
-from rigid.policies.gaussian import GaussianParameters, GaussianPolicy
-from rigid.policies.networks import Normaliser
+from rigid.policies.architecture import (
+    Architecture,
+    NativePolicy,
+    Weights,
+    architecture_of,
+    weights_of,
+)
 
 Agent = Literal["robot", "human"]
-Weights = dict[str, np.ndarray]
 
 FORMAT_VERSION = 1
 WEIGHTS_FILE = "policy.safetensors"
 CARD_FILE = "policy.json"
 
 _CURE = "copy the policy or train it again"
-
-
-class Architecture(BaseModel):
-    """What the weights are the weights of."""
-
-    model_config = ConfigDict(frozen=True, strict=True)
-
-    kind: Literal["gaussian"] = "gaussian"
-    observation_size: PositiveInt
-    action_size: PositiveInt
-    memory: PositiveInt
-    """Observations in the network's input, newest first."""
-    hidden: tuple[PositiveInt, ...]
-    """Widths of the tanh layers."""
-
-    def shapes(self) -> dict[str, tuple[int, ...]]:
-        """Shape of each weight array, by name."""
-        seen = self.observation_size * self.memory
-        sizes = (seen, *self.hidden, self.action_size)
-        shapes: dict[str, tuple[int, ...]] = {}
-        for layer, size in enumerate(pairwise(sizes)):
-            shapes |= {f"network.{layer}.w": size, f"network.{layer}.b": size[1:]}
-        moments = {"normaliser.mean": (seen,), "normaliser.variance": (seen,)}
-        return {**shapes, "log_std": (self.action_size,), **moments, "normaliser.count": ()}
 
 
 class PolicyCard(BaseModel):
@@ -77,12 +56,12 @@ class PolicyCard(BaseModel):
 class StoredPolicy(NamedTuple):
     """A policy from disk with its card."""
 
-    policy: GaussianPolicy
+    policy: NativePolicy
     card: PolicyCard
 
 
 def save_policy(
-    policy: GaussianPolicy,
+    policy: NativePolicy,
     directory: Path | str,
     *,
     agent: Agent,
@@ -137,7 +116,7 @@ def load_native(directory: Path | str) -> StoredPolicy:
     _check_weights(weights, card.architecture, path)
     if hash_weights(card.architecture, weights) != card.sha256:
         raise UserError(f"{path} holds other weights than {CARD_FILE} describes: {_CURE}")
-    return StoredPolicy(_assemble(weights, card.architecture), card)
+    return StoredPolicy(card.architecture.assemble(weights), card)
 
 
 def load_card(directory: Path | str) -> PolicyCard:
@@ -150,25 +129,6 @@ def load_card(directory: Path | str) -> PolicyCard:
     cure = f"a native policy is a directory with {CARD_FILE} and {WEIGHTS_FILE}; {_CURE}"
     text = read_bytes(path, cure=cure)
     return parse_header(PolicyCard, text, version=FORMAT_VERSION, where=path, cure=_CURE)
-
-
-def architecture_of(policy: GaussianPolicy) -> Architecture:
-    """The architecture of a policy in memory."""
-    return Architecture(
-        observation_size=policy.observation_size,
-        action_size=policy.action_size,
-        memory=policy.memory,
-        hidden=tuple(layer["w"].shape[1] for layer in policy.parameters.network[:-1]),
-    )
-
-
-def weights_of(policy: GaussianPolicy) -> Weights:
-    """The weights of a policy in memory, by name, float32."""
-    network, log_std, normaliser = policy.parameters
-    named = {f"network.{i}.{key}": layer[key] for i, layer in enumerate(network) for key in "wb"}
-    named |= {f"normaliser.{key}": value for key, value in normaliser._asdict().items()}
-    named["log_std"] = log_std
-    return {name: np.asarray(value, dtype=np.float32) for name, value in named.items()}
 
 
 def hash_weights(architecture: Architecture, weights: Mapping[str, np.ndarray]) -> str:
@@ -215,14 +175,3 @@ def _check_weights(weights: Weights, architecture: Architecture, path: Path) -> 
 def _not_finite(weights: Weights) -> str | None:
     """Name of the first array with NaN or infinity in it, if any."""
     return next((name for name in sorted(weights) if not np.isfinite(weights[name]).all()), None)
-
-
-def _assemble(weights: Weights, architecture: Architecture) -> GaussianPolicy:
-    arrays = {name: jnp.asarray(array) for name, array in weights.items()}
-    network = [
-        {key: arrays[f"network.{layer}.{key}"] for key in "wb"}
-        for layer in range(len(architecture.hidden) + 1)
-    ]
-    normaliser = Normaliser(**{key: arrays[f"normaliser.{key}"] for key in Normaliser._fields})
-    parameters = GaussianParameters(network, arrays["log_std"], normaliser)
-    return GaussianPolicy(parameters, memory=architecture.memory)

@@ -1,4 +1,4 @@
-"""Networks as plain pytrees: fully connected layers and running normalisation.
+"""Networks as plain pytrees: fully connected layers, a recurrent one, running normalisation.
 
 A network is a list of `{"w": [in, out], "b": [out]}`; one sample goes in and one comes out, and
 batches are made by the caller's matrix products (the last axis is the feature axis everywhere).
@@ -41,6 +41,32 @@ def apply_mlp(network: MLP, x: Float[Array, "*batch i"]) -> Float[Array, "*batch
 def _affine(layer: Layer, x: Float[Array, "*batch i"]) -> Float[Array, "*batch o"]:
     product = x @ layer["w"]
     return product + jnp.broadcast_to(layer["b"], product.shape)
+
+
+def init_layer(key: PRNGKeyArray, fan_in: int, fan_out: int, *, scale: float = 1.0) -> Layer:
+    """A linear layer on its own."""
+    return init_mlp(key, (fan_in, fan_out), last_scale=scale)[0]
+
+
+def init_gru(key: PRNGKeyArray, fan_in: int, width: int) -> Layer:
+    """A gated recurrent unit (Cho et al., 2014): `w` [in, 3 width], `u` [width, 3 width], `b`.
+
+    The three blocks are the reset gate, the update gate and the candidate.
+    """
+    bound = width**-0.5  # As PyTorch.
+    rows = jax.random.uniform(key, (fan_in + width, 3 * width), minval=-bound, maxval=bound)
+    return {"w": rows[:fan_in], "u": rows[fan_in:], "b": jnp.zeros(3 * width)}
+
+
+def apply_gru(
+    unit: Layer, state: Float[Array, "*batch h"], x: Float[Array, "*batch i"]
+) -> Float[Array, "*batch h"]:
+    """The state after one more input."""
+    seen = jnp.split(_affine(unit, x), 3, axis=-1)
+    kept = jnp.split(state @ unit["u"], 3, axis=-1)
+    reset, update = (jax.nn.sigmoid(a + b) for a, b in zip(seen[:2], kept[:2], strict=True))
+    candidate = jnp.tanh(seen[2] + reset * kept[2])
+    return update * state + (1 - update) * candidate
 
 
 class Normaliser(NamedTuple):

@@ -6,11 +6,12 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from rigid.commands.training import show_progress
+from rigid.commands.training_progress import show_progress
 from rigid.learning.cooptimisation import CoOptimisationSettings
 from rigid.learning.personalisation import PersonalisationSettings
 from rigid.presets import PRESETS
-from rigid.robots.recipes import train_pair, train_vanilla
+from rigid.robots.pair import train_pair
+from rigid.robots.vanilla import train_vanilla
 from rigid.tasks.registry import make_task
 
 SEED = 0

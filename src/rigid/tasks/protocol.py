@@ -127,6 +127,18 @@ class BringsPolicies(Protocol):
 
 
 @runtime_checkable
+class VariesHumans(Protocol):
+    """A task that shows the robot how the human moves, and whose humans can vary; optional."""
+
+    shown_human: tuple[str, ...]
+    """Those of the robot's observations that show the human: places, which differ as it moves."""
+
+    def diversified(self) -> Task:
+        """The same task, in which what the human wants varies as much as it can."""
+        ...
+
+
+@runtime_checkable
 class DrawsFeatures(Protocol):
     """A task that can draw the human as its features describe it; optional."""
 

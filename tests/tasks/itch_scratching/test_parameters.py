@@ -24,6 +24,7 @@ UNCHECKED = runpy.run_path(parameters.__file__)["ItchScratchingParameters"]
         ({"impairment": "pain"}, "impairment is 'pain', but must be one of .*'tremor'"),
         ({"itch_limbs": ("nose",)}, "itch_limbs is .*'nose'.* one or both of .*'upper_arm'"),
         ({"itch_limbs": ()}, r"itch_limbs is \(\), but must be one or both of"),
+        ({"itch_spread": 1.5}, r"itch_spread is 1.5, but must be in \[0, 1\]"),
         ({"servo": "strong"}, "servo is 'strong', but must be paper or datasheet"),
         ({"horizon": 0}, "horizon is 0, but must be at least 1 step"),
         ({"physics_step": 0.05}, r"physics_step is 0.05, but must be in \(0, 0.02\] s"),

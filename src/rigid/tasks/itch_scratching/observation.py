@@ -21,10 +21,11 @@ def _points(*names: str) -> list[str]:
 
 _TIP = [*_points("tip"), *(f"tip_quaternion_{axis}" for axis in ("w", *_AXES))]
 _TARGET = _points("tip_to_itch", "itch")
-_ARM = _points("shoulder_position", "elbow_position", "wrist_position")
-ROBOT_NAMES = (*_TIP, *jaco.JOINT_NAMES, *_ARM, "tool_force")
+ARM_NAMES = tuple(_points("shoulder_position", "elbow_position", "wrist_position"))
+"""What both see of the human's arm [m]."""
+ROBOT_NAMES = (*_TIP, *jaco.JOINT_NAMES, *ARM_NAMES, "tool_force")
 ROBOT_SEEING_NAMES = (*ROBOT_NAMES, *_TARGET)
-HUMAN_NAMES = (*_TIP, *_TARGET, *human.ARM_JOINTS, *_ARM, "force_on_person", "force_at_itch")
+HUMAN_NAMES = (*_TIP, *_TARGET, *human.ARM_JOINTS, *ARM_NAMES, "force_on_person", "force_at_itch")
 
 
 def bounds(names: tuple[str, ...], robot_limits: np.ndarray, arm_limits: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from math import inf
 from statistics import NormalDist
-from typing import Literal
+from typing import Any, Literal
 
 from rigid.errors import UserError
 from rigid.tasks.bodies.human import BODIES, BodySize
@@ -55,6 +55,10 @@ class ItchScratchingParameters:
     draw): joint range halved, strength a quarter, tremor of ±10°."""
     itch_limbs: tuple[Literal["forearm", "upper_arm"], ...] = ("forearm", "upper_arm")
     """Where it can itch: the middle of each named limb (paper: two fixed points)."""
+    itch_spread: float = 0.0
+    """Share of each limb's half length, in [0, 1], over which the itch of an episode is drawn, to
+    either side of the middle; 1: anywhere along the limb (paper, appendix 'PALM': anywhere on the
+    two arms. Ours has one arm that moves, so both of its limbs take the place of two arms)."""
     servo: Literal["paper", "datasheet"] = "paper"
     """Torque caps of the arm: 1 N·m on every joint as in the original (its forces are unlike
     those of a real arm) or Kinova's data sheet."""
@@ -76,6 +80,7 @@ class ItchScratchingParameters:
         limbs = ("forearm", "upper_arm")
         known = bool(self.itch_limbs) and set(self.itch_limbs) <= set(limbs)
         _require(known, "itch_limbs", self.itch_limbs, f"one or both of {limbs}")
+        _require(0 <= self.itch_spread <= 1, "itch_spread", self.itch_spread, "in [0, 1]")
         _require(self.servo in ("paper", "datasheet"), "servo", self.servo, "paper or datasheet")
         _require(self.horizon >= 1, "horizon", self.horizon, "at least 1 step")
         _require(0 < self.physics_step <= 0.02, "physics_step", self.physics_step, "in (0, 0.02] s")
@@ -83,6 +88,16 @@ class ItchScratchingParameters:
 
         for name, weight in asdict(self.weights).items():
             _require(0 <= weight < inf, f"weights.{name}", weight, "a number from 0 on")
+
+    def describe(self) -> dict[str, Any]:
+        """As JSON; what came after the first release only where it departs from its default.
+
+        So older runs, policies and episodes keep their identity.
+        """
+        described = asdict(self)
+        if self.itch_spread == 0:
+            del described["itch_spread"]
+        return described
 
     @property
     def body_size(self) -> BodySize:

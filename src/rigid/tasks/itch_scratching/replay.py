@@ -16,15 +16,15 @@ import numpy as np
 from jaxtyping import Float
 from mujoco.batch import Batch
 
-from rigid.tasks.bodies import human, jaco, scratcher
+from rigid.tasks.bodies import human, scratcher
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
 from rigid.tasks.itch_scratching.reward import SUCCESS_CONTACTS
 from rigid.tasks.itch_scratching.scene import LIMBS, build_spec
 from rigid.tasks.itch_scratching.sensing import Sensors
+from rigid.tasks.itch_scratching.touches import contact_marks
 
 FINE_STEP = 0.001
 """Longest physics step of forces that people look at [s] (ours)."""
-_KINDS = {"itch": 0, "arm": 1, "unwanted": 2}
 _TYPES = {
     mujoco.mjtGeom.mjGEOM_CAPSULE: "capsule",
     mujoco.mjtGeom.mjGEOM_SPHERE: "sphere",
@@ -54,7 +54,18 @@ def scene(model: mujoco.MjModel) -> dict[str, Any]:
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     rest = np.concatenate([data.xpos, data.xquat], axis=1).round(5).tolist()
-    return {"bodies": bodies, "geoms": geoms, "rest": rest}
+    return {"bodies": bodies, "geoms": geoms, "rest": rest, "keypoints": _keypoints(model)}
+
+
+def _keypoints(model: mujoco.MjModel) -> list[dict[str, Any]]:
+    """Hand, elbow and tool tip (paper, appendix 'More Visualizations of Robot Failure Cases')."""
+    hand, tip = model.geom("right_hand"), model.geom(scratcher.TIP_GEOM)
+    return [
+        {"name": "hand", "body": int(hand.bodyid[0]), "pos": hand.pos.round(5).tolist()},
+        # A limb's body frame sits at the joint it hangs from.
+        {"name": "elbow", "body": int(model.body("right_forearm").id), "pos": [0.0, 0.0, 0.0]},
+        {"name": "tool tip", "body": int(tip.bodyid[0]), "pos": tip.pos.round(5).tolist()},
+    ]
 
 
 def _role(body: str) -> str:
@@ -72,11 +83,13 @@ def replay(
     fine, count = _fine(parameters)
     model = build_spec(fine).compile()
     itch = int(snapshots[0, -2])
+    site = model.site(f"itch_{LIMBS[itch]}")
+    if parameters.itch_spread:
+        site.pos[2] -= snapshots[0, -3]  # Limbs hang along -z of their frame.
     records = _simulate_again(model, snapshots, count)
     contacts = Sensors(model).contacts(records, np.full(len(records), itch))
     poses, distance = _motion(model, snapshots, f"itch_{LIMBS[itch]}")
     moving = [i for i in range(model.nbody) if model.body_weldid[i] != 0]
-    site = model.site(f"itch_{LIMBS[itch]}")
     counted = snapshots[:, -1].astype(int).tolist()
     return {
         "dt": round(parameters.physics_step * parameters.substeps, 6),
@@ -92,7 +105,7 @@ def replay(
         "force_itch": _series(contacts.force_itch.max(axis=1)),
         "distance": distance.round(4).tolist(),
         "counted": counted,
-        "contacts": _contact_marks(model, snapshots),
+        "contacts": contact_marks(model, snapshots, contacts.touched_unwanted, count),
         "success": counted[-1] >= SUCCESS_CONTACTS,
     }
 
@@ -153,33 +166,6 @@ def _simulate_again(
     batch.bind("qvel")[:] = snapshots[:-1, size : 2 * size]
     batch.bind("ctrl")[:] = snapshots[1:, 2 * size : 3 * size]
     return np.asarray(batch.rollout(count, record=("sensordata",))["sensordata"])
-
-
-def _contact_marks(
-    model: mujoco.MjModel, snapshots: Float[np.ndarray, "T1 state"]
-) -> list[list[float]]:
-    """Where robot and person touch at the end of each step: frame, place, force and kind."""
-    data = mujoco.MjData(model)
-    size, marks = model.nq, []
-    robot = model.body(jaco.BASE_BODY).id
-    trunk = {model.body(name).id for name in human.TRUNK_PARTS}
-    people = trunk | {model.body(name).id for name in human.ARM_PARTS}
-    limb = model.body(f"right_{LIMBS[int(snapshots[0, -2])]}").id
-    force = np.zeros(6)
-    for frame in range(1, len(snapshots)):
-        data.qpos[:], data.qvel[:] = snapshots[frame, :size], snapshots[frame, size : 2 * size]
-        data.ctrl[:] = snapshots[frame, 2 * size : 3 * size]
-        mujoco.mj_forward(model, data)
-        for index, contact in enumerate(data.contact):
-            bodies = model.geom_bodyid[list(contact.geom)]
-            touched = next((int(b) for b in bodies if int(b) in people), None)
-            if touched is None or robot not in model.body_rootid[bodies]:
-                continue
-            mujoco.mj_contactForce(model, data, index, force)
-            kind = "unwanted" if touched in trunk else "itch" if touched == limb else "arm"
-            place = [round(float(x), 4) for x in contact.pos]
-            marks.append([frame, *place, round(float(force[0]), 2), _KINDS[kind]])
-    return marks
 
 
 def _series(per_step: Float[np.ndarray, " T"]) -> list[float]:

@@ -14,6 +14,8 @@ from rigid.tasks.itch_scratching.scene import CONTACTS_PER_PART, LIMBS
 SCRATCH_RADIUS = 0.025
 """A contact counts within this distance of the itch [m] (Assistive Gym)."""
 _ARM_LANDMARKS = ("right_shoulder_joint", "right_elbow", "right_wrist")
+_LIMB_ENDS = {"upper_arm": (0, 1), "forearm": (1, 2)}
+"""Landmarks at the upper and the lower end of each limb."""
 
 
 class Contacts(NamedTuple):
@@ -65,23 +67,35 @@ class Sensors:
         self._itches = np.stack([_start(model, f"itch_{limb}") + np.arange(3) for limb in LIMBS])
         self._arm = np.stack([_start(model, name) + np.arange(3) for name in _ARM_LANDMARKS])
 
-    def poses(self, data: Float[np.ndarray, "B n"]) -> Poses:
-        """Reads poses from one physics step's sensors."""
+    def poses(
+        self, data: Float[np.ndarray, "B n"], shift: Float[np.ndarray, "B 2"] | None = None
+    ) -> Poses:
+        """Reads poses from one physics step's sensors; `shift` as in `contacts`."""
+        itches = data[:, self._itches]
+        if shift is not None:
+            itches = itches + shift[:, :, None] * self._along(data)
         return Poses(
             tip=data[:, self._tip],
             tip_quaternion=data[:, self._tip_quaternion],
             end_effector_speed=np.linalg.norm(data[:, self._velocity], axis=1),
-            itches=data[:, self._itches],
+            itches=itches,
             arm=data[:, self._arm],
         )
 
-    def contacts(self, data: Float[np.ndarray, "B S n"], itch: Int[np.ndarray, " B"]) -> Contacts:
+    def contacts(
+        self,
+        data: Float[np.ndarray, "B S n"],
+        itch: Int[np.ndarray, " B"],
+        shift: Float[np.ndarray, "B 2"] | None = None,
+    ) -> Contacts:
         """Accumulates the contacts of all S physics steps of a control step.
 
         Args:
             data: `sensordata` after each physics step. MuJoCo's sensors describe the state before
                 the step, so entry s holds the forces that acted during physics step s.
             itch: The limb that itches, index into `LIMBS`.
+            shift: How far the itch of either limb lies below its middle [m], in the order of
+                `LIMBS`; None: in the middle.
         """
         batch = np.arange(len(data))
         normals = data[:, :, self._person]  # [B, S, parts, contacts]
@@ -94,6 +108,9 @@ class Sensors:
         force = data[rows, steps, columns + 1]
         place = data[rows[..., None], steps[..., None], columns[..., None] + np.arange(4, 7)]
         itch_place = data[rows[..., None], steps[..., None], self._itches[itch][:, None, None, :]]
+        if shift is not None:
+            along = self._along(data)[batch, :, itch][:, :, None, :]
+            itch_place = itch_place + shift[batch, itch][:, None, None, None] * along
         near = found & (np.linalg.norm(place - itch_place, axis=-1) < SCRATCH_RADIUS)
         flat = near.reshape(len(data), -1)
         last = flat.shape[1] - 1 - np.argmax(flat[:, ::-1], axis=1)
@@ -106,6 +123,14 @@ class Sensors:
             itch_contact=place.reshape(len(data), -1, 3)[batch, last],
             tool_force=data[:, -1, self._tool].sum(axis=-1),
         )
+
+    def _along(self, data: Float[np.ndarray, "*B n"]) -> Float[np.ndarray, "*B 2 3"]:
+        """Unit vector down each limb, in the order of `LIMBS`, from the landmarks at its ends."""
+        arm = data[..., self._arm]
+        upper, lower = np.array([_LIMB_ENDS[limb] for limb in LIMBS]).T
+        limbs = arm[..., lower, :] - arm[..., upper, :]
+        along: np.ndarray = limbs / np.linalg.norm(limbs, axis=-1, keepdims=True)
+        return along
 
     def penetration(self, data: Float[np.ndarray, "B S n"]) -> Float[np.ndarray, " B"]:
         """Deepest overlap of robot or arm with anything in a control step [m]."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -28,8 +28,9 @@ both with `builtin:vanilla`."""
 class ItchScratching:
     """A robot arm scratches the itch of a seated person; only the person knows where it itches.
 
-    Both agents share the reward. One of two fixed points itches, drawn per episode. An episode is
-    helped when the scratcher makes 25 counted contacts in 100 steps at 10 Hz.
+    Both agents share the reward. One of two fixed points itches, drawn per episode (any point of
+    either limb at `itch_spread` 1). An episode is helped when the scratcher makes 25 counted
+    contacts in 100 steps at 10 Hz.
     """
 
     name = "itch-scratching"
@@ -39,6 +40,7 @@ class ItchScratching:
         *(f"{joint}_velocity" for joint in human.ARM_JOINTS),
         *(f"itch_{limb}" for limb in LIMBS),
     )
+    shown_human = observation.ARM_NAMES
     outcome_names: tuple[str, ...] = ("helped", "unhelped", "unwanted_contact")
     return_range: tuple[float, float] | None = RETURN_RANGE
 
@@ -75,6 +77,10 @@ class ItchScratching:
     def seeing_the_itch(self) -> ItchScratching:
         """The same task with the itch in the robot's observation, for co-optimisation."""
         return ItchScratching(self.parameters, itch_visible=True)
+
+    def diversified(self) -> ItchScratching:
+        """The same task with the itch anywhere along both limbs."""
+        return self.with_parameters(itch_spread=1.0)
 
     def make_world(self, batch: int, *, threads: int = 0) -> ItchScratchingWorld:
         """Returns `batch` worlds stepped on `threads` threads (0: every core)."""
@@ -119,10 +125,15 @@ class ItchScratching:
         return replay.human_poses(self.model, names, features)
 
     def describe(self) -> Mapping[str, Any]:
-        """Name, version and parameters, as JSON."""
+        """Name, version and parameters, as JSON.
+
+        Spread itches make another version: what was described before there were any, and so does
+        not speak of them, must differ from it.
+        """
+        spread = self.parameters.itch_spread > 0
         return {
             "name": self.name,
-            "version": self.version,
+            "version": f"{self.version}-spread" if spread else self.version,
             "itch_visible": self.itch_visible,
-            "parameters": asdict(self.parameters),
+            "parameters": self.parameters.describe(),
         }

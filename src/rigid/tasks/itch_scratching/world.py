@@ -49,9 +49,10 @@ class ItchScratchingWorld:
         self._arm = _addresses(model, human.ARM_JOINTS)
         self._robot = _addresses(model, jaco.JOINT_NAMES)
         self._limits = model.jnt_range.copy()
+        # The middle of a limb lies half its length below the joint that it hangs from.
+        self._half_lengths = np.array([-model.site(f"itch_{limb}").pos[2] for limb in LIMBS])
         self._records = {"sensordata": np.zeros((batch, task.parameters.substeps,
                                                  model.nsensordata))}  # fmt: skip
-        self._limb_count = len(task.parameters.itch_limbs)
         self._begin(np.zeros(batch, dtype=np.int64))
 
     def _begin(self, seeds: np.ndarray) -> None:
@@ -60,14 +61,18 @@ class ItchScratchingWorld:
         self.itch = np.zeros(self.batch, dtype=np.int64)
         self._start = np.zeros((self.batch, self._task.model.nq))
         self._tremor = np.zeros((self.batch, arm_size))
+        share = np.zeros(self.batch)
         limbs = [LIMBS.index(limb) for limb in self._parameters.itch_limbs]
-        amplitude = np.deg2rad(self._parameters.tremor_deg)
+        amplitude, spread = np.deg2rad(self._parameters.tremor_deg), self._parameters.itch_spread
         self._start[:, self._arm] = human.start_angles()
         for world, seed in enumerate(seeds):
             rng = np.random.default_rng(int(seed))
             self._start[world, self._robot] = starts[rng.integers(len(starts))]
             self.itch[world] = limbs[rng.integers(len(limbs))]
             self._tremor[world] = rng.uniform(-amplitude, amplitude, arm_size)
+            if spread:  # Last, so that the rest of an episode starts alike at any spread.
+                share[world] = rng.uniform(-spread, spread)
+        self._shift = share[:, None] * self._half_lengths[None, :] if spread else None
         self._last_counted = np.zeros((self.batch, 3))
         self.counted = np.zeros(self.batch, dtype=np.int64)
         self.contact_steps = np.zeros(self.batch, dtype=np.int64)
@@ -83,7 +88,7 @@ class ItchScratchingWorld:
             raise ValueError(f"{self.batch} worlds need as many seeds, not {len(seeds)}")
         self._begin(np.asarray(seeds))
         self._put_at_start(np.arange(self.batch, dtype=np.int32))
-        poses = self._sensors.poses(self._sensordata.copy())
+        poses = self._sensors.poses(self._sensordata.copy(), self._shift)
         return self._observe(poses, np.zeros((self.batch, 3)), np.zeros(self.batch), {})
 
     def _put_at_start(self, worlds: np.ndarray) -> None:
@@ -107,8 +112,8 @@ class ItchScratchingWorld:
         self._restart_faulted()
         action[self.faulted] = 0.0  # It may not have been finite.
         data = self._records["sensordata"]
-        contacts = self._sensors.contacts(data, self.itch)
-        poses = self._sensors.poses(data[:, -1])
+        contacts = self._sensors.contacts(data, self.itch, self._shift)
+        poses = self._sensors.poses(data[:, -1], self._shift)
         return self._score(action, contacts, poses)
 
     def _restart_faulted(self) -> None:
@@ -194,9 +199,14 @@ class ItchScratchingWorld:
         )
 
     def snapshot(self) -> Float[np.ndarray, "B state"]:
-        """Angles [rad], velocities [rad/s], targets of the step [rad], itch, counted contacts."""
+        """Angles [rad], velocities [rad/s], targets of the step [rad], itch, counted contacts.
+
+        Where itches are spread, how far below the middle of its limb [m] comes before the itch.
+        """
         parts = [self._batch.bind(name) for name in ("qpos", "qvel", "ctrl")]
         columns = [self.itch[:, None], self.counted[:, None]]
+        if self._shift is not None:
+            columns.insert(0, self._shift[np.arange(self.batch), self.itch][:, None])
         return np.concatenate([*parts, *columns], axis=1).astype(np.float32)
 
 

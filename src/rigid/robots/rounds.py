@@ -1,0 +1,97 @@
+"""`rigid train robust-gt --rounds N`: measure, retrain, measure again.
+
+Beyond the paper: does robustness really grow, or does the hole only move? Every round's robot is
+searched with seeds of its own, and learns from what all searches before it found. Whether it grew
+is judged by a search with seeds that no training saw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+
+from rigid.compute.listening import Listener
+from rigid.compute.measurement import measure_robot
+from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.subject import Subject
+from rigid.frontier.result import load_frontier
+from rigid.policies.native import CARD_FILE
+from rigid.presets import Preset
+from rigid.robots.robust_gt import RobustSettings, take_lesson, train_robust_gt
+from rigid.robots.storing import Report, open_training, refuse_finished
+
+Showing = Callable[[str], AbstractContextManager[Report]]
+Listening = Callable[[str], AbstractContextManager[Listener]]
+
+
+def seeds_not_used(runs: Sequence[Path], count: int) -> tuple[int, ...]:
+    """Search seeds above all that these runs have."""
+    used = [seed for run in runs for seed in read_settings(RunDirectory(run))["seeds"]]
+    first = max(used) + 1
+    return tuple(range(first, first + count))
+
+
+def train_in_rounds(
+    run: Path,
+    settings: RobustSettings,
+    preset: Preset,
+    *,
+    rounds: int,
+    seed: int,
+    out: Path,
+    canonical_episodes: int,
+    robot: str | None,
+    training: Showing,
+    searching: Listening,
+) -> list[Path]:
+    """Trains a robot into `out`; the robots and searches between lie in `out`/round-1 and so on.
+
+    Args:
+        run: The finished measurement that it begins with.
+        settings: Of every training.
+        preset: Of the searches between.
+        rounds: Trainings in all; 1 is the paper's Robust GT.
+        seed: Everything random comes from it.
+        out: Directory of the last robot.
+        canonical_episodes: Recorded with each robot.
+        robot: Where the robot that `run` measured is now; by default where it was.
+        training: Shows the progress of a training, which it is told the name of.
+        searching: Shows the progress of a search.
+
+    Returns:
+        Every run that the last robot learned from.
+
+    Raises:
+        UserError: As `take_lesson` and `train_robust_gt`.
+    """
+    runs, between = [run], [f"round-{number}" for number in range(1, rounds)]
+    take_lesson(
+        runs, settings, robot=robot
+    )  # Refuses what cannot be learned from, before any work.
+    refuse_finished(out)
+    open_training(out, between)
+    human = str(load_frontier(run).data["human"])
+    for name in between:
+        made, searched = out / name / "robot", out / name / "frontier"
+        lesson = take_lesson(runs, settings, robot=robot)
+        if not (made / CARD_FILE).exists():
+            with training(name) as report:
+                train_robust_gt(
+                    lesson, settings, seed=seed, out=made,
+                    canonical_episodes=canonical_episodes, report=report,
+                )  # fmt: skip
+        with searching(name) as listener:
+            measure_robot(
+                Subject(lesson.task, str(made), human), preset, out=searched,
+                seeds=seeds_not_used(runs, len(preset.seeds)), listener=listener,
+            )  # fmt: skip
+        runs.append(searched)
+        robot = None  # From here on it is where it was measured.
+    lesson = take_lesson(runs, settings, robot=robot)
+    with training(f"round {rounds}") as report:
+        train_robust_gt(
+            lesson, settings, seed=seed, out=out, canonical_episodes=canonical_episodes,
+            report=report, beside=between,
+        )  # fmt: skip
+    return runs
