@@ -12,11 +12,16 @@ from rigid import cli
 from rigid.cli import run
 from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
-from rigid.commands.comparing import CompareCommand, GateCommand
+from rigid.commands.comparing import CompareCommand
+from rigid.commands.exporting import ExportCommand
+from rigid.commands.gating import GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
+from rigid.commands.pairing import PairsCommand
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
-from rigid.commands.training import CoOptimizeCommand, VanillaCommand
+from rigid.commands.training_palm import PalmCommand
+from rigid.commands.training_robots import CoOptimizeCommand, GleaveCommand, VanillaCommand
+from rigid.commands.training_robust import RobustCommand
 from rigid.commands.verifying import VerifyCommand
 from rigid.errors import UserError
 
@@ -26,6 +31,9 @@ COMMANDS = {
     "report": ReportCommand,
     "train co-optimize": CoOptimizeCommand,
     "train vanilla": VanillaCommand,
+    "train gleave": GleaveCommand,
+    "train palm": PalmCommand,
+    "train robust-gt": RobustCommand,
     "record": RecordCommand,
     "evaluate": EvaluateCommand,
     "referee": RefereeCommand,
@@ -33,10 +41,13 @@ COMMANDS = {
     "compare": CompareCommand,
     "gate": GateCommand,
     "blame": BlameCommand,
+    "pairs": PairsCommand,
+    "export": ExportCommand,
     "bench": BenchCommand,
 }
 
-POSITIONAL = {"directory": "PATH ", "directories": "[[PATH "}
+POSITIONAL = {"directory": "PATH ", "directories": "[[PATH ", "runs": "DIR… "}
+RENAMED = {"run_": "from"}
 
 
 @pytest.fixture
@@ -77,18 +88,21 @@ def test_help_of_a_command_begins_with_examples_of_it(name, help_of):
 def test_help_names_every_option_with_its_default(name, help_of):
     lines = [line.strip("│| ") for line in help_of(*name.split()).splitlines()]
     for field in dataclasses.fields(COMMANDS[name]):
-        dashed = f"--{field.name.replace('_', '-')} "
+        dashed = f"--{RENAMED.get(field.name, field.name).replace('_', '-')} "
         option = POSITIONAL.get(field.name, dashed)
-        (line,) = [line for line in lines if line.startswith(option)]
+        (place,) = [i for i, line in enumerate(lines) if f"{line} ".startswith(option)]
+        said = " ".join(lines[place : place + 2])  # A long name has a line of its own.
         required = field.default is dataclasses.MISSING
-        default = "" if field.default == () else field.default
-        assert ("(required)" if required else f"(default: {default})") in line
+        values = field.default if isinstance(field.default, tuple) else (field.default,)
+        default = " ".join(map(str, values))
+        assert ("(required)" if required else f"(default: {default})") in said
 
 
 def test_help_of_train_lists_the_recipes_with_examples(help_of):
     text = help_of("train")
     assert "rigid train co-optimize --seed" in text
-    assert "rigid train vanilla --pair" in text
+    for recipe in ("vanilla --pair", "gleave --pair", "palm --pair", "robust-gt --from"):
+        assert f"rigid train {recipe}" in text
 
 
 def test_help_loads_no_numerics():

@@ -18,8 +18,11 @@ import tyro
 
 from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
-from rigid.commands.comparing import CompareCommand, GateCommand
+from rigid.commands.comparing import CompareCommand
+from rigid.commands.exporting import ExportCommand
+from rigid.commands.gating import GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
+from rigid.commands.pairing import PairsCommand
 from rigid.commands.parsing import printable
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
@@ -43,6 +46,8 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "compare": CompareCommand,
     "gate": GateCommand,
     "blame": BlameCommand,
+    "pairs": PairsCommand,
+    "export": ExportCommand,
     "bench": BenchCommand,
     "train": TrainCommand,
     "record": RecordCommand,

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import shutil
+
 import pytest
 
 
@@ -60,3 +63,15 @@ def toy_options(toys):
     return (
         "--task", "toy-reach", "--robot", str(toys / "robot"), "--human", str(toys / "human"),
     )  # fmt: skip
+
+
+@pytest.fixture
+def two_runs(small_run, tmp_path):
+    """The toy measurement, and one of a robot that fares worse by a fifth with every human."""
+    worse = tmp_path / "worse"
+    shutil.copytree(small_run.directory, worse)
+    data = json.loads((worse / "frontier.json").read_text())
+    for point in data["points"]:
+        point["adversarialness"] = min(point["adversarialness"] + 0.2, 1.0)
+    (worse / "frontier.json").write_text(json.dumps(data))
+    return small_run.directory, worse

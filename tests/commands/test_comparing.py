@@ -1,25 +1,12 @@
-"""`rigid compare` and `rigid gate` on the toy measurement."""
+"""`rigid compare` on the toy measurement."""
 
 from __future__ import annotations
 
 import json
-import shutil
 
 import pytest
 
-from rigid.frontier.intervals import t_interval, upper_bound
-
-
-@pytest.fixture
-def two_runs(small_run, tmp_path):
-    """The toy measurement, and one of a robot that fares worse by a fifth with every human."""
-    worse = tmp_path / "worse"
-    shutil.copytree(small_run.directory, worse)
-    data = json.loads((worse / "frontier.json").read_text())
-    for point in data["points"]:
-        point["adversarialness"] = min(point["adversarialness"] + 0.2, 1.0)
-    (worse / "frontier.json").write_text(json.dumps(data))
-    return small_run.directory, worse
+from tests.frontier.samples import store
 
 
 def test_compare_shows_every_robot_and_its_difference_to_the_first(rigid, two_runs):
@@ -40,7 +27,7 @@ def test_compare_says_by_which_number_to_tell_robots_apart(rigid, two_runs):
         "hull at 0.9 tells robots apart more steadily: 95 % intervals of its differences covered "
         "94 to 96 %, those of worst at ≥ 0.9 76 to 87 % (results/coverage)"
     )
-    assert said in out.splitlines()
+    assert said in " ".join(out.split())
 
 
 def test_compare_as_json_has_numbers_intervals_and_differences(rigid, two_runs):
@@ -87,114 +74,116 @@ def test_a_strangers_text_cannot_steer_the_terminal(rigid, two_runs):
     assert "\x1b" not in err
 
 
-def test_the_gate_opens_when_every_upper_bound_keeps_its_limit(rigid, two_runs):
-    code, out, _ = rigid("gate", two_runs[0], "--max-worst", "1", "--max-auc", "1")
+@pytest.fixture
+def methods(tmp_path):
+    """Two methods of two robots each; every adversary of the second does 0.2 less harm."""
+    runs = {
+        name: store(tmp_path / name, heights, human=f"h{name[-1]}")
+        for name, heights in {
+            "v-0": {0: 0.5, 1: 0.6}, "v-1": {0: 0.4, 1: 0.5}, "r-0": {0: 0.3, 1: 0.4},
+            "r-1": {0: 0.2, 1: 0.3},
+        }.items()
+    }  # fmt: skip
+    return f"vanilla={runs['v-0']},{runs['v-1']}", f"robust={runs['r-0']},{runs['r-1']}"
+
+
+def test_methods_have_a_row_each_with_intervals_over_robots_and_seeds(rigid, methods):
+    code, out, err = rigid("compare", *methods)
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert lines[1].startswith("vanilla     1.00  0.500 [")
+    assert lines[5].startswith("robust  -0.200 [-0.20, -0.20]")
+    assert lines[4] == "minus vanilla, on the robots and search seeds that both have"
+    assert lines[9].split() == ["robust", "1.00", "[0.96,", "1.00]", "2", "2"]
+    assert "95 % intervals over robots and search seeds" in out
+
+
+def test_nothing_is_wider_than_a_hundred_columns(rigid, methods, two_runs, tmp_path):
+    long = store(tmp_path / "a-robot-whose-name-says-all-of-how-it-was-trained", {0: 0.5, 1: 0.9})
+    for given in (methods, two_runs, (*methods, long)):
+        out = rigid("compare", *given)[1]
+        assert max(len(line) for line in out.splitlines()) <= 100
+
+
+def test_robots_that_pair_by_order_alone_are_named(rigid, methods):
+    robust = f"robust={','.join(methods[1].removeprefix('robust=').split(',')[::-1])}"
+    out = rigid("compare", methods[0], robust)[1]
+    assert "robot 1 of robust was made for another synthetic human than robot 1 of vanilla" in out
+
+
+def test_methods_as_json_have_their_robots(rigid, methods):
+    vanilla, robust = json.loads(rigid("compare", *methods, "--json")[1])
+    assert (robust["method"], robust["robot_seeds"], robust["search_seeds"]) == ("robust", 2, 2)
+    assert robust["worst_at"]["minus_baseline"]["mean"] == pytest.approx(-0.2)
+    assert vanilla["worst_at"]["minus_baseline"] is None
+    assert [robot["worst_at"]["by_seed"] for robot in robust["robots"]] == [
+        {"0": 0.3, "1": 0.4}, {"0": 0.2, "1": 0.3},
+    ]  # fmt: skip
+    assert "unseen" not in robust
+
+
+def test_files_are_written_and_named(rigid, methods, tmp_path):
+    names = {"csv": "t.csv", "latex": "t.tex", "figure": "f.svg", "page": "p.html"}
+    places = {option: tmp_path / "new" / name for option, name in names.items()}
+    code, out, _ = rigid(
+        "compare", *methods, *(word for o, path in places.items() for word in (f"--{o}", path))
+    )
     assert code == 0
-    assert [line[:6] for line in out.splitlines()[:3]] == ["ok    ", "ok    ", "upper "]
+    assert out.splitlines()[-4:] == [f"written: {path}" for path in places.values()]
+    begins = [path.read_text()[:8] for path in places.values()]
+    assert begins == ["method,w", r"\begin{t", "<?xml ve", "<!doctyp"]
 
 
-def test_the_gate_says_where_no_natural_human_was_found(rigid, two_runs, tmp_path):
-    """All humans stand at naturalness 0.5."""
-    copy = shutil.copytree(two_runs[0], tmp_path / "half-natural")
-    data = json.loads((copy / "frontier.json").read_text())
-    data["points"] = [{**point, "naturalness": 0.5} for point in data["points"]]
-    (copy / "frontier.json").write_text(json.dumps(data))
-    found = [
-        "canonical play stands there"
-        in rigid("gate", copy, "--max-worst", "1", "--at-naturalness", level)[1]
-        for level in ("0.6", "0.4")
-    ]
-    assert found == [True, False]
-
-
-def test_the_gate_shuts_with_3_at_an_upper_bound_beyond_its_limit(rigid, two_runs, small_run):
-    mean, bound = small_run.auc, upper_bound(list(small_run.data["auc_by_seed"].values()))
-    assert mean < bound
-    code, out, _ = rigid("gate", two_runs[0], "--max-auc", (mean + bound) / 2)
-    assert code == 3
-    assert out.startswith(f"FAILED  AUC: {mean:.3f}, upper bound {bound:.3f} (t")
+def test_json_stays_alone_on_standard_output(rigid, methods, tmp_path):
+    out = rigid("compare", *methods, "--json", "--csv", tmp_path / "t.csv")[1]
+    assert len(json.loads(out)) == 2
+    assert (tmp_path / "t.csv").exists()
 
 
 @pytest.fixture
-def with_worst(small_run, tmp_path):
-    """Makes the toy measurement one whose seeds found these worst humans at naturalness 0.9."""
+def own_task(toys, monkeypatch):
+    """The toy task counts as RIGID's own; returns the folder of the toy pair."""
+    from rigid.tasks import registry
+    from tests.compute.tiny import FilmedReach
 
-    def changed(*worst):
-        directory = tmp_path / "seeds"
-        shutil.copytree(small_run.directory, directory)
-        data = json.loads((directory / "frontier.json").read_text())
-        data["points"] = [
-            {**data["points"][0], "id": f"s{seed}", "seed": seed}
-            | {"naturalness": 0.9, "adversarialness": height, "faults": 0}
-            for seed, height in enumerate(worst)
-        ]
-        data["auc_by_seed"] = {str(seed): 0.5 for seed in range(len(worst))}
-        data["canonical"]["adversarialness"] = 0.0
-        (directory / "frontier.json").write_text(json.dumps(data))
-        return directory
-
-    return changed
+    recipe = registry._Recipe(FilmedReach, None)
+    monkeypatch.setitem(registry._BUILTIN, "toy-reach", lambda: recipe)
+    return toys
 
 
-SKEWED, SYMMETRIC = (0.01, 0.02, 0.06), (0.5, 0.55, 0.6)
-
-
-def test_seeds_skewed_towards_0_that_t_would_let_pass_fail(rigid, with_worst):
-    assert t_interval(SKEWED).high < 0.1
-    code, out, _ = rigid("gate", with_worst(*SKEWED), "--max-worst", "0.1")
-    assert code == 3
-    verdict, reason = out.splitlines()
-    assert verdict == (
-        "FAILED  worst at naturalness ≥ 0.9: 0.030, upper bound 0.228 (t of the logit; t: 0.096), "
-        "limit 0.1"
-    )
-    assert reason == (
-        "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since t alone "
-        "promises too much where seeds are skewed towards 0"
-    )
-
-
-def test_symmetric_seeds_in_the_middle_are_held_by_t(rigid, with_worst):
-    high = t_interval(SYMMETRIC).high
-    code, out, _ = rigid("gate", with_worst(*SYMMETRIC), "--max-worst", high + 1e-6)
+def test_unseen_humans_get_a_column_everywhere(rigid, two_runs, own_task, tmp_path):
+    options = ("--humans", own_task / "human", "builtin:passive", "--episodes", "5")
+    code, out, _ = rigid("compare", *two_runs, *options, "--csv", tmp_path / "t.csv")
     assert code == 0
-    assert f"0.550, upper bound {high:.3f} (t), limit" in out
-
-
-def test_the_gate_looks_from_the_naturalness_that_was_asked_for(rigid, two_runs, small_run):
-    worst = [p["adversarialness"] for p in small_run.points if p["seed"] == 0]
-    code, out, _ = rigid("gate", two_runs[0], "--max-worst", "0", "--at-naturalness", "0")
-    assert code == 3
-    assert max(worst) > 0
-    assert "worst at naturalness ≥ 0: " in out
-
-
-def test_a_robot_that_became_worse_fails_against_its_baseline(rigid, two_runs):
-    better, worse = two_runs
-    options = ("--at-naturalness", "0")
-    assert rigid("gate", better, "--baseline", better, *options)[0] == 0
-    code, out, _ = rigid("gate", worse, "--baseline", better, *options)
-    assert code == 3
-    assert "worst at naturalness ≥ 0, minus the baseline's" in out
-    assert "(paired t), limit 0" in out
-    assert "of the logit" not in out
-    assert rigid("gate", worse, "--baseline", better, "--margin", "1", *options)[0] == 0
-
-
-def test_a_single_seed_never_passes(rigid, single_run):
-    code, out, _ = rigid("gate", single_run.directory, "--max-worst", "1")
-    assert code == 3
-    assert "from one seed has no upper bound; add --seeds" in out
+    assert "own human           unseen humans" in out
+    header, first, _ = (tmp_path / "t.csv").read_text().splitlines()
+    assert header.endswith(",search_seeds,unseen,unseen_low,unseen_high")
+    found = json.loads(rigid("compare", *two_runs, *options, "--json")[1])[0]
+    assert f"{found['unseen']:.4g}" == first.split(",")[-3]
+    low, high = found["unseen_interval"]
+    assert low <= found["unseen"] <= high
 
 
 BAD = {
-    "no limit": ((), "name a limit: --max-worst, --max-auc or --baseline"),
-    "level": (("--max-worst", "1", "--at-naturalness", "2"), "--at-naturalness is 2.0, but must"),
+    "episodes alone": (("--episodes", "5"), "--episodes is for --humans: name the humans"),
+    "no episodes": (("--humans", "x", "--episodes", "0"), "--episodes is 0, but must be at least"),
+    "figure": (("--figure", "f.gif"), "--figure 'f.gif': its ending must be .svg or .pdf or .png"),
+    "page": (("--page", "p.pdf"), "--page 'p.pdf': its ending must be .html"),
+    "place": (("--csv", "/proc/t.csv"), "choose another place with --csv"),
+    "human": (("--humans", "nobody"), "human 'nobody' is no directory"),
 }
 
 
 @pytest.mark.parametrize(("options", "message"), BAD.values(), ids=BAD)
-def test_a_gate_without_sense_exits_with_2(rigid, two_runs, options, message):
-    code, _, err = rigid("gate", two_runs[0], *options)
+def test_what_does_not_go_together_exits_with_2(rigid, two_runs, own_task, options, message):
+    del own_task
+    code, _, err = rigid("compare", *two_runs, *options)
     assert code == 2
     assert message in err
+
+
+def test_methods_that_were_measured_otherwise_are_refused(rigid, methods, tmp_path):
+    other = store(tmp_path / "other", {0: 0.1}, identity={"preset": {"iterations": 9}})
+    code, _, err = rigid("compare", methods[0], f"robust={other}")
+    assert code == 2
+    assert "cannot be compared: preset.iterations is 40 for the one and 9 for the other" in err

@@ -1,7 +1,6 @@
 """The exploit that features must see: moving naturally, but for the other itch."""
 
 import jax
-import mujoco
 import numpy as np
 import pytest
 
@@ -11,10 +10,8 @@ from rigid.learning.rollout import play, policy_actor
 from rigid.naturalness.panel import Fold, train_panel
 from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.loading import load_policy
-from rigid.tasks.itch_scratching.scene import LIMBS
 from rigid.tasks.registry import make_task
-
-TIP, TIP_TO_ITCH, ITCH = slice(0, 3), slice(7, 10), slice(10, 13)  # Of the human's observation.
+from tests.tasks.mistaken import mistaken
 
 
 @pytest.fixture(scope="module")
@@ -30,26 +27,9 @@ def players():
 def episodes_for_the_other_itch(players, episodes, seed):
     task, robot, human = players
     world, rng = task.make_world(episodes), np.random.default_rng(seed)
-    data = mujoco.MjData(task.model)
-    seen = {}
-
-    def watch(_, __):
-        seen["snapshot"] = world.snapshot()
-
-    def other_itch(row):
-        data.qpos[:] = row[: task.model.nq]
-        mujoco.mj_kinematics(task.model, data)
-        return data.site(f"itch_{LIMBS[1 - int(row[-2])]}").xpos - task.chest
-
-    def act(observation):
-        mistaken = observation.copy()
-        mistaken[:, ITCH] = [other_itch(row) for row in seen["snapshot"]]
-        mistaken[:, TIP_TO_ITCH] = mistaken[:, TIP] - mistaken[:, ITCH]
-        return human.act(mistaken, (), rng)[0]
-
+    act = mistaken(task, world, human, rng)
     starts = rng.integers(2**31, size=episodes)
-    robot_actor = policy_actor(robot, episodes, None)
-    return play(task, world, starts, robot_actor, act, watch=watch)
+    return play(task, world, starts, policy_actor(robot, episodes, None), act)
 
 
 def test_a_human_who_acts_as_if_the_other_itch_itched_is_not_natural(players):

@@ -42,6 +42,24 @@ def report(payload, tmp_path_factory) -> Path:
     return build_report(payload, tmp_path_factory.mktemp("report") / "report.html")
 
 
+@pytest.fixture(scope="session")
+def struck_task():
+    """Itch scratching in episodes as short as that of `struck`."""
+    from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
+    from rigid.tasks.itch_scratching.task import ItchScratching
+    from tests.report.struck import FRAMES
+
+    return ItchScratching(ItchScratchingParameters(horizon=FRAMES - 1))
+
+
+@pytest.fixture(scope="session")
+def struck(struck_task):
+    """Scene and episode of real physics; the robot strikes the person's chest at its end."""
+    from tests.report.struck import struck
+
+    return struck(struck_task)
+
+
 # One browser per module: while it runs, its event loop keeps asyncio from starting another here.
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:

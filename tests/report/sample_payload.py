@@ -14,6 +14,9 @@ sys.path.insert(0, str(Path(__file__).parent))  # So that it runs as a script an
 from synthetic_motion import FRAMES, episode, moments, scene
 
 from rigid.report import build_report
+from rigid.report.episodes import read_episode
+from rigid.report.failure_rules import classify
+from rigid.report.failures import group
 
 CANONICAL_Y = 0.06
 GRID = np.linspace(0, 1, 101)
@@ -156,6 +159,14 @@ def _judged(rng, point, mates, levels, poses):
     return {"discriminator": accuracy(1.0), "referee": accuracy(0.8), "scores": scores}
 
 
+def _tell_failures(stage, motions, points):
+    """Adds to each human's episodes what went wrong in them."""
+    for point in points:
+        for clip in motions[point["id"]].values():
+            beside = read_episode(stage, motions["canonical"][str(clip["seed"])])
+            clip["failure"] = classify(read_episode(stage, clip), beside)
+
+
 def sample_payload(seeds: int = 3, *, replays: int | None = None) -> dict:
     """A payload with 18 points per seed; `replays` of them have motions, worst natural first."""
     rng = np.random.default_rng(7)
@@ -170,8 +181,11 @@ def sample_payload(seeds: int = 3, *, replays: int | None = None) -> dict:
             "median": episode(median, 0.6 * point["adversarialness"]),
         }
         motions["canonical"] |= {str(s): episode(s, 0.0) for s in (worst, median)}
+    stage = scene()
+    _tell_failures(stage, motions, moved)
     return {
-        "frontier": frontier, "band": band, "scene": scene(), "replays": motions,
+        "frontier": frontier, "band": band, "scene": stage, "replays": motions,
+        "failures": group(moved, motions),
         "settings": {
             "note": "synthetic sample for the report's tests: measured nowhere",
             "preset": "standard", "seeds": list(range(seeds)),

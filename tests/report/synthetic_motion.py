@@ -122,7 +122,7 @@ def _reach(joints, target):
 
 
 def _deepest(joints, limbs):
-    """The deepest overlap of an arm link with a limb [m], and where on the link it is."""
+    """The deepest overlap of an arm link with a limb [m], where on the link, and their bodies."""
     shares = np.array([0.25, 0.75])[:, None, None]
     points = (joints[3:-1] + shares * (joints[4:] - joints[3:-1])).reshape(-1, 1, 3)
     radii = np.tile([*LINK_RADII[3:], 0.008], 2)[:, None]
@@ -131,8 +131,9 @@ def _deepest(joints, limbs):
     along = np.clip(((points - start) * axis).sum(-1) / (axis * axis).sum(-1), 0, 1)
     gap = np.linalg.norm(points - start - along[..., None] * axis, axis=-1)
     depth = radii + np.array([0.045, 0.036, 0.036]) - gap
-    link, _ = np.unravel_index(depth.argmax(), depth.shape)
-    return max(0.0, float(depth.max())), points[link, 0]
+    link, limb = np.unravel_index(depth.argmax(), depth.shape)
+    bodies = MOVING[3 + link % (len(points) // 2)], MOVING[len(LINKS) + 2 + limb]
+    return max(0.0, float(depth.max())), points[link, 0], bodies
 
 
 def episode(seed: int, harm: float) -> dict:
@@ -170,10 +171,10 @@ def episode(seed: int, harm: float) -> dict:
         near = distance < 0.035
         press = 4 + 3 * abs(np.sin(f)) if near else 0.0
         if near:
-            contacts.append([f, *joints[-1].tolist(), press, 0])
-        worst, where = _deepest(joints, np.array([(p, q) for p, q, _ in limbs.values()]))
+            contacts.append([f, *joints[-1].tolist(), press, 0, _BODY["tool_tip"], _BODY[body]])
+        worst, where, touching = _deepest(joints, np.array([(p, q) for p, q, _ in limbs.values()]))
         if worst > 0:
-            contacts.append([f, *where.tolist(), 400 * worst, 2])
+            contacts.append([f, *where.tolist(), 400 * worst, 2, *touching])
         forces.append(400 * worst)
         itch_forces.append(press)
         distances.append(distance)

@@ -14,7 +14,7 @@ function clipOf(frames: readonly (readonly number[])[], more: Partial<Clip> = {}
   return {
     seed: 1, dt: 0.1, frames: frames.length, bodies: [1], poses: Float32Array.from(frames.flat()), itch: null,
     forceUnwanted: [], forceItch: [], distance: [], counted: [], contacts: [], return: 0, success: true,
-    outcome: "helped", ...more,
+    outcome: "helped", failure: null, ...more,
   };
 }
 
@@ -35,6 +35,20 @@ test("a damaged clip reads as none stored", () => {
   assert.equal(readClip({ frames: 2, bodies: [1], poses: "AQAAAAAA/38AAAAAAAA=" }), null);
   assert.equal(readClip(null), null);
   assert.equal(readScene({ geoms: "none" }), null);
+});
+
+test("a clip says what went wrong and when, else nothing", () => {
+  const clip = { frames: 1, bodies: [1], poses: "AQAAAAAA/38AAAAAAAA=" };
+  const failure = { kind: "stuck", part: null, frame: 7, time: 0.7, says: "it stood still" };
+  assert.deepEqual(readClip({ ...clip, failure })?.failure, { frame: 7, says: "it stood still" });
+  for (const unknown of [null, 3, "x", {}, { says: "no moment" }]) assert.equal(readClip({ ...clip, failure: unknown })?.failure, null);
+});
+
+test("contacts that name the bodies read as those that do not", () => {
+  const contacts = [[4, 1, 2, 3, 5, 2, 9, 11], [4, 1, 2, 3, 5, 2]];
+  const read = readClip({ frames: 1, bodies: [1], poses: "AQAAAAAA/38AAAAAAAA=", contacts })?.contacts;
+  assert.deepEqual(read?.[0], { frame: 4, at: [1, 2, 3], force: 5, kind: "unwanted" });
+  assert.deepEqual(read?.[1], read?.[0]);
 });
 
 test("between frames positions are linear", () => {

@@ -1,33 +1,36 @@
-"""`rigid compare` and `rigid gate`: robots against each other, and against a limit."""
+"""`rigid compare`: robots, or ways of making them, against each other."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
-from rigid.commands.comparison_table import as_json, table
-from rigid.commands.parsing import printable
+from rigid.commands.comparison_files import ComparisonFiles
+from rigid.commands.measured import load_measured, parse_methods
+from rigid.commands.parsing import at_least
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
-    from rigid.frontier.comparison import Number
+    from rigid.compute.unseen import Pair
+    from rigid.frontier.standings import Measured
+    from rigid.frontier.successes import Played
 
 _shown_as = tyro.conf.arg
-GATE_FAILED = 3
-_WHY_WIDER = (
-    "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since t alone "
-    "promises too much where seeds are skewed towards 0"
-)
 
 
 @dataclass(frozen=True)
 class CompareCommand:
     """Compare robots that were measured alike, paired by search seed; the first is the baseline.
+
+    NAME=DIR,DIR… is one row of several robots, such as a recipe's: robot i of one method pairs with
+    robot i of the others, in the order given, so give those that were made for the same synthetic
+    human in the same place. Intervals then are over robots and search seeds. NAME given again adds
+    robots; a plain DIR beside named methods is a method of one robot.
 
     The column `hull at` says how bad a natural motion gets when the human may mix two ways of
     moving from episode to episode. It is the steadier number to tell robots apart: in whole
@@ -37,11 +40,25 @@ class CompareCommand:
     Examples:
       rigid compare runs/vanilla runs/mine
       rigid compare runs/* --json > table.json
+      rigid compare vanilla=runs/v-0,runs/v-1 robust=runs/r-0,runs/r-1 --page table.html
+      rigid compare runs/* --humans pairs/1/human pairs/2/human --csv t.csv --latex t.tex
       rigid compare --robots builtin:vanilla robots/* --out runs/fleet --executor ray
     """
 
-    directories: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
-    """Finished run directories, two or more."""
+    runs: Annotated[tuple[str, ...], tyro.conf.Positional, _shown_as(metavar="DIR…")] = ()
+    """Finished run directories, or methods as NAME=DIR,DIR…; two directories or more."""
+    humans: Annotated[tuple[str, ...], _shown_as(metavar="HUMAN…")] = ()
+    """Also play each robot with these humans, but its own, for success with unseen humans."""
+    episodes: int = 200
+    """Of each robot with each of --humans."""
+    csv: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Write the table as CSV; _vs_vanilla_high is the upper bound against the first row."""
+    latex: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Write the table as LaTeX (booktabs)."""
+    figure: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Draw all curves on the same axes (.svg, .pdf or .png)."""
+    page: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Write a page with table, curves and links to the reports (.html)."""
     robots: Annotated[tuple[str, ...], _shown_as(metavar="ROBOT…")] = ()
     """Measure these first, each into the folder of its name in --out; what is there goes on."""
     out: Annotated[Path | None, _shown_as(metavar="DIR")] = None
@@ -60,157 +77,91 @@ class CompareCommand:
     """Print the table as JSON."""
 
     def run(self) -> int:
-        """Prints the table."""
-        from rigid.frontier.comparison import compare
-
+        """Prints the table and writes what was asked for."""
+        files = ComparisonFiles(csv=self.csv, latex=self.latex, figure=self.figure, page=self.page)
         self._check_options()
-        _names(self.directories)  # Bad ones are refused before any hours pass.
-        given = [_load(directory) for directory in self.directories]
-        measured = self._measured()
-        names = _names((*self.directories, *measured))
-        loaded = [*given, *(_load(directory) for directory in measured)]
-        frontiers = {name: frontier for name, (frontier, _) in zip(names, loaded, strict=True)}
-        identities = {name: identity for name, (_, identity) in zip(names, loaded, strict=True)}
-        rows = compare(frontiers, identities)
-        print(json.dumps(as_json(rows), indent=1) if self.json else table(rows))
-        return 0
-
-    def _check_options(self) -> None:
-        """Refuses what does not go together."""
-        if len(self.directories) + len(self.robots) < 2:
+        named = parse_methods(self.runs, self._fleet())
+        if sum(map(len, named.methods.values())) < 2:
             raise UserError(
                 "compare takes two or more: run directories, or --robots to be measured"
             )
+        files.check()
+        there = {  # Bad ones are refused before any hours pass.
+            path: load_measured(path)
+            for paths in parse_methods(self.runs).methods.values()
+            for path in paths
+        }
+        self._measure()
+        methods = {
+            name: [there.get(path) or load_measured(path) for path in paths]
+            for name, paths in named.methods.items()
+        }
+        self._show(methods, files, grouped=named.grouped)
+        return 0
+
+    def _show(
+        self, methods: Mapping[str, Sequence[Measured]], files: ComparisonFiles, *, grouped: bool
+    ) -> None:
+        from rigid.commands.comparison_json import methods_as_json, robots_as_json
+        from rigid.commands.comparison_table import table
+        from rigid.frontier.standings import notes_of, standings_of, unlike_pairs
+
+        standings = standings_of(methods)  # Refuses what cannot be compared before anybody plays.
+        if self.humans:
+            standings = standings_of(methods, self._unseen(methods))
+        notes = [*unlike_pairs(methods), *notes_of(standings)]
+        written = files.write(standings, notes)
+        if self.json:
+            as_json = methods_as_json if grouped else robots_as_json
+            print(json.dumps(as_json(standings, asked=bool(self.humans)), indent=1))
+            return
+        print(table(standings, notes))
+        for path in written:
+            print(f"written: {path}")
+
+    def _unseen(self, methods: Mapping[str, Sequence[Measured]]) -> list[Played]:
+        """What robots achieve with `--humans`."""
+        from rich.console import Console
+        from rich.progress import track
+
+        from rigid.compute.unseen import play_unseen
+
+        console = Console(stderr=True)
+
+        def watched(pairs: Sequence[Pair]) -> Iterable[Pair]:
+            return track(pairs, description="unseen humans", console=console, transient=True)
+
+        everyone = [run for measured in methods.values() for run in measured]
+        return play_unseen(everyone, self.humans, episodes=self.episodes, track=watched)
+
+    def _check_options(self) -> None:
+        """Refuses what does not go together."""
+        at_least("--episodes", self.episodes, 1)
+        if not self.humans and self.episodes != CompareCommand.episodes:
+            raise UserError("--episodes is for --humans: name the humans to be played with")
         if not self.robots:
             self._refuse_measuring()
         elif self.out is None:
             raise UserError("--robots need --out DIR, where they are measured")
 
-    def _measured(self) -> list[Path]:
-        """The run directories of `--robots`, complete."""
-        if self.out is None:
-            return []
+    def _fleet(self) -> list[Path]:
+        """The run directories of `--robots`."""
+        from rigid.commands.fleet import names_of
+
+        return [] if self.out is None else [self.out / name for name in names_of(self.robots)]
+
+    def _measure(self) -> None:
+        """Completes the measurements of `--robots`."""
         from rigid.commands.fleet import measure_fleet
 
-        return measure_fleet(
-            self.robots, out=self.out, task=self.task, human=self.human, preset=self.preset,
-            seeds=self.seeds, executor=self.executor,
-        )  # fmt: skip
+        if self.out is not None:
+            measure_fleet(
+                self.robots, out=self.out, task=self.task, human=self.human, preset=self.preset,
+                seeds=self.seeds, executor=self.executor,
+            )  # fmt: skip
 
     def _refuse_measuring(self) -> None:
         """Refuses what would have no effect without `--robots`."""
         for option in ("out", "task", "human", "preset", "seeds", "executor"):
             if getattr(self, option) != getattr(CompareCommand, option):
                 raise UserError(f"--{option} is for --robots: name the robots to be measured")
-
-
-@dataclass(frozen=True)
-class GateCommand:
-    """Exit with 3 unless a robot is robust enough, by upper bounds over search seeds.
-
-    The bound of a number is the upper end of its 95 % t interval or of that on the logit scale,
-    whichever is larger: where seeds are skewed towards 0, t alone promises too much. That of a
-    difference is the upper end of the paired t interval, which for `worst at` covered only 76 to
-    87 % in whole searches of an analytic task. No bound knows of what no seed found.
-
-    Examples:
-      rigid gate runs/mine --max-worst 0.4 --at-naturalness 0.9
-      rigid gate runs/mine --baseline runs/last-release --margin 0.05
-    """
-
-    directory: Annotated[Path, tyro.conf.Positional]
-    """A finished run directory."""
-    max_worst: Annotated[float | None, _shown_as(metavar="Y")] = None
-    """Largest allowed worst adversarialness at --at-naturalness."""
-    at_naturalness: float = 0.9
-    """From which naturalness on --max-worst and --baseline look."""
-    max_auc: Annotated[float | None, _shown_as(metavar="AUC")] = None
-    """Largest allowed area under the frontier."""
-    baseline: Annotated[Path | None, _shown_as(metavar="DIR")] = None
-    """A measurement that this one may not be worse than, paired by search seed."""
-    margin: float = 0.0
-    """By how much it may be worse than the baseline."""
-
-    def run(self) -> int:
-        """Prints one line for each limit; 3 when one is exceeded."""
-        if not 0 <= self.at_naturalness <= 1:
-            raise UserError(f"--at-naturalness is {self.at_naturalness}, but must lie in [0, 1]")
-        verdicts = [*_absolute(self), *_against_baseline(self)]
-        if not verdicts:
-            raise UserError("name a limit: --max-worst, --max-auc or --baseline")
-        for fine, text in verdicts:
-            print(f"{'ok    ' if fine else 'FAILED'}  {text}")
-        if (self.max_worst, self.max_auc) != (None, None):
-            print(_WHY_WIDER)
-        if self.max_worst is not None:
-            lacking = _load(self.directory)[0].lacking_at(self.at_naturalness)
-            if lacking is not None:
-                print(lacking)
-        return 0 if all(fine for fine, _ in verdicts) else GATE_FAILED
-
-
-def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
-    from rigid.frontier.comparison import numbers_of
-
-    numbers = numbers_of(_load(options.directory)[0], options.at_naturalness)
-    level = f"worst at naturalness ≥ {options.at_naturalness:g}"
-    for limit, key, label in (
-        (options.max_worst, "worst_at", level),
-        (options.max_auc, "auc", "AUC"),
-    ):
-        if limit is not None:
-            yield _within(label, numbers[key].mean, *_bound(numbers[key]), limit)
-
-
-def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
-    from rigid.frontier.comparison import compare
-
-    if options.baseline is None:
-        return
-    frontiers, identities = {}, {}
-    for name, directory in (("baseline", options.baseline), ("robot", options.directory)):
-        frontiers[name], identities[name] = _load(directory)
-    against = compare(frontiers, identities, level=options.at_naturalness)[1].against
-    assert against is not None
-    level = f"worst at naturalness ≥ {options.at_naturalness:g}"
-    for key, label in (("worst_at", level), ("auc_natural", "area over [0.8, 1]")):
-        found = against[key]
-        high = None if found.interval is None else found.interval.high
-        yield _within(
-            f"{label}, minus the baseline's", found.mean, high, "paired t", options.margin
-        )
-
-
-def _bound(number: Number) -> tuple[float | None, str]:
-    """The upper bound of a number, None for one seed, and where it comes from."""
-    bound, interval = number.upper_bound, number.interval
-    if bound is None or interval is None:
-        return None, ""
-    return bound, "t" if bound <= interval.high else f"t of the logit; t: {interval.high:.3f}"
-
-
-def _within(
-    label: str, mean: float, bound: float | None, source: str, limit: float
-) -> tuple[bool, str]:
-    """Whether the upper bound keeps the limit; without one nothing is known."""
-    if bound is None:
-        return False, f"{label}: {mean:.3f} from one seed has no upper bound; add --seeds"
-    text = f"{label}: {mean:.3f}, upper bound {bound:.3f} ({source}), limit {limit:g}"
-    return bound <= limit, text
-
-
-def _load(directory: Path) -> tuple[Any, Mapping[str, Any]]:
-    from rigid.compute.run_directory import RunDirectory, read_settings
-    from rigid.frontier.result import load_frontier
-
-    frontier = load_frontier(directory)
-    return frontier, read_settings(RunDirectory(directory))["identity"]
-
-
-def _names(directories: Sequence[Path]) -> list[str]:
-    """The last part of each path, or all of it where that is not enough to tell them apart."""
-    short = [directory.resolve().name for directory in directories]
-    names = short if len(set(short)) == len(short) else [str(path) for path in directories]
-    if len(set(names)) < len(names):
-        raise UserError("compare was given the same run directory twice")
-    return [printable(name) for name in names]

@@ -1,80 +1,88 @@
-"""The comparison of robots as text and as JSON."""
+"""The comparison of robots or methods as text, for a terminal of 100 columns."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+import textwrap
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rigid.frontier.comparison import Number, Row
-    from rigid.frontier.intervals import Interval, PairedDifference
+    from rigid.frontier.intervals import Interval
+    from rigid.frontier.methods import Estimate
+    from rigid.frontier.standings import Standing
+    from rigid.frontier.successes import Success
+
+_WIDTH = 100
+_NAME, _NUMBER, _DIFFERENCE, _SUCCESS = 11, 20, 22, 24
+"""Of columns: a name with four numbers or four differences just fits."""
 
 
-def table(rows: Sequence[Row]) -> str:
-    """The comparison as text: numbers with intervals, then differences to the first robot."""
-    from rigid.frontier.comparison import HEADLINE_LEVEL, repeat_spread
+def table(standings: Sequence[Standing], notes: Sequence[str] = ()) -> str:
+    """The comparison as text: numbers with intervals, differences to the first, successes.
 
-    width = max(len(row.name) for row in rows)
-    titles = {
-        "worst_at": f"worst at ≥ {HEADLINE_LEVEL}",
-        "hull_at": f"hull at {HEADLINE_LEVEL}",
-        "auc_natural": "area over [0.8, 1]",
-        "auc": "AUC",
-    }
-    lines = [f"{'robot':{width}}  {'success':>7}" + "".join(f"  {t:>20}" for t in titles.values())]
-    for row in rows:
-        success = row.frontier.data["canonical"]["success"]
-        played = "–" if success is None else f"{success:.2f}"
-        cells = (f"  {_number(row.numbers[key]):>20}" for key in titles)
-        lines.append(f"{row.name:{width}}  {played:>7}" + "".join(cells))
-    lines += ["", f"minus {rows[0].name}, on the search seeds that both have"]
-    for row in rows[1:]:
-        assert row.against is not None
-        cells = (f"  {_difference(row.against[key]):>20}" for key in titles)
-        lines.append(f"{row.name:{width}}  {'':7}" + "".join(cells))
-    spreads = {key: repeat_spread(rows[0].numbers[key]) for key in titles}
-    known = [f"{spread:.3f} for {titles[key]}" for key, spread in spreads.items() if spread]
-    if known:
-        lines += ["", f"a repeat of {rows[0].name} may differ by {', '.join(known)} (95 %)"]
-    steadier = (
-        f"{titles['hull_at']} tells robots apart more steadily: 95 % intervals of its differences "
-        f"covered 94 to 96 %, those of {titles['worst_at']} 76 to 87 % (results/coverage)"
-    )
-    closing = "lower is more robust; estimates at this search power, not bounds"
-    return "\n".join([*lines, steadier, closing])
+    Args:
+        standings: The first is the baseline.
+        notes: Sentences below.
+    """
+    from rigid.frontier.standings import TITLES
+
+    singles = all(len(standing.robots) == 1 for standing in standings)
+    asked = any(standing.unseen is not None for standing in standings)
+    width = min(max(len(standing.method.name) for standing in standings), _NAME)
+    titles = "".join(f"{title:>{_NUMBER}}" for title in TITLES.values())
+    lines = [f"{'robot' if singles else 'method':{width}}  {'success':>7}{titles}"]
+    for standing in standings:
+        cells = [f"{_share(standing.success):>9}"]
+        cells += [f"{_number(standing.method.numbers[key]):>{_NUMBER}}" for key in TITLES]
+        lines += _row(standing, width, cells)
+    if len(standings) > 1:
+        lines += ["", *_differences(standings, width, singles=singles)]
+    if asked or not singles:
+        lines += ["", *_successes(standings, width, asked=asked)]
+    wrapped = (textwrap.fill(note, _WIDTH, subsequent_indent="  ") for note in notes)
+    return "\n".join([*lines, "", *wrapped])
 
 
-def as_json(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """The comparison for JSON: every number with its interval, seeds and difference."""
-    from rigid.frontier.comparison import repeat_spread
+def _differences(standings: Sequence[Standing], width: int, *, singles: bool) -> Iterator[str]:
+    from rigid.frontier.standings import TITLES
 
-    return [
-        {
-            "robot": row.name,
-            "directory": str(row.frontier.directory),
-            "success": row.frontier.data["canonical"]["success"],
-            "auc_paper_axis": row.frontier.data.get("auc_paper_axis"),
-            **{
-                key: {
-                    "mean": number.mean,
-                    "interval": number.interval,
-                    "by_seed": dict(number.by_seed),
-                    "repeat_spread": repeat_spread(number),
-                    "minus_baseline": None if row.against is None else row.against[key]._asdict(),
-                }
-                for key, number in row.numbers.items()
-            },
-        }
-        for row in rows
-    ]
+    paired = "search seeds" if singles else "robots and search seeds"
+    yield f"minus {standings[0].method.name}, on the {paired} that both have"
+    for standing in standings[1:]:
+        assert standing.method.against is not None  # Every method has a robot.
+        found = (standing.method.against[key] for key in TITLES)
+        yield from _row(standing, width, [f"{_difference(one):>{_DIFFERENCE}}" for one in found])
 
 
-def _number(number: Number) -> str:
-    return f"{number.mean:.3f}{_ends(number.interval)}"
+def _successes(standings: Sequence[Standing], width: int, *, asked: bool) -> Iterator[str]:
+    titles = ("own human", "unseen humans") if asked else ("own human",)
+    heads = "".join(f"{title:>{_SUCCESS}}" for title in titles)
+    yield f"{'success':{width}}{heads}    robots  search seeds"
+    for standing in standings:
+        shown = (standing.success, standing.unseen) if asked else (standing.success,)
+        cells = [f"{_share(one)}{'' if one is None else _ends(one.interval)}" for one in shown]
+        counts = f"{standing.method.robots:10}{standing.method.seeds:14}"
+        yield from _row(standing, width, [*(f"{cell:>{_SUCCESS}}" for cell in cells), counts])
 
 
-def _difference(found: PairedDifference) -> str:
+def _row(standing: Standing, width: int, cells: Sequence[str]) -> list[str]:
+    """One line, or two where the name is longer than its column."""
+    name = standing.method.name
+    return [f"{name:{width}}{''.join(cells)}"] if len(name) <= width else [
+        name, f"{'':{width}}{''.join(cells)}"
+    ]  # fmt: skip
+
+
+def _number(found: Estimate) -> str:
+    return f"{found.mean:.3f}{_ends(found.interval)}"
+
+
+def _difference(found: Estimate) -> str:
     return f"{found.mean:+.3f}{_ends(found.interval, '+.2f')}"
+
+
+def _share(found: Success | None) -> str:
+    return "–" if found is None else f"{found.mean:.2f}"
 
 
 def _ends(interval: Interval | None, form: str = ".2f") -> str:

@@ -58,8 +58,12 @@ def parse_lambdas(text: str | None) -> tuple[float, ...] | None:
 _UNITS = {"s": 1.0, "m": 60.0, "h": 3600.0}
 
 
-def parse_budget(text: str | None) -> float | None:
+def parse_budget(text: str | None, option: str = "--budget") -> float | None:
     """A time as `90s`, `30m` or `2h`, in seconds; None stays None.
+
+    Args:
+        text: What the user wrote.
+        option: Where; for the message.
 
     Example:
         >>> parse_budget("30m")
@@ -71,9 +75,9 @@ def parse_budget(text: str | None) -> float | None:
     try:
         seconds = float(number) * _UNITS[unit]
     except (ValueError, KeyError):
-        raise UserError(f"--budget {text!r}: write a time as 90s, 30m or 2h") from None
+        raise UserError(f"{option} {text!r}: write a time as 90s, 30m or 2h") from None
     if not 0 < seconds < math.inf:
-        raise UserError(f"--budget {text!r} must be more than nothing")
+        raise UserError(f"{option} {text!r} must be more than nothing")
     return seconds
 
 

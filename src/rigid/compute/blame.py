@@ -13,11 +13,12 @@ from typing import Any
 
 from rigid.compute.evaluation import evaluate
 from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.subject import measured_robot
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically
 from rigid.frontier.result import Frontier, load_frontier
 from rigid.learning.best_response import ResponseSettings, best_response
-from rigid.policies.loading import load_policy, policy_hash
+from rigid.policies.loading import load_policy
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import task_from_description
@@ -64,7 +65,7 @@ def blame(
     task = task_from_description(identity["task"])
     if task is None:
         raise UserError(f"{directory} was measured on a task that is not RIGID's own")
-    measured = _robot(robot or str(frontier.data["robot"]), task, identity)
+    measured = measured_robot(robot or str(frontier.data["robot"]), task, identity)
     anchor = float(frontier.data["canonical"]["adversarialness"])
     known = _stored(directory / FILE)
     for name in points or harmful_points(frontier):
@@ -131,13 +132,6 @@ def verdict(found: Mapping[str, Mapping[str, Any]], anchor: float) -> dict[str, 
 
 def _short(entry: Mapping[str, Any]) -> dict[str, Any]:
     return {key: entry[key] for key in ("return", "success", "adversarialness", "outcomes")}
-
-
-def _robot(spec: str, task: Task, identity: Mapping[str, Any]) -> Policy:
-    robot = load_policy(spec, task=task, agent="robot")
-    if policy_hash(robot) != identity["robot"]:
-        raise UserError(f"robot {spec!r} is not the one that was measured: name it with --robot")
-    return robot
 
 
 def _stored(path: Path) -> dict[str, dict[str, Any]]:

@@ -10,9 +10,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
 
 from rigid.data.episodes import CanonicalEpisodes
 from rigid.errors import UserError
+from rigid.naturalness.features import DEFAULT, Features
 from rigid.naturalness.panel import Fold, split_in_folds
 
 FEWEST, MOST_FOR_FOLDS = 12, 400
@@ -88,3 +90,26 @@ def pick(episodes: CanonicalEpisodes, which: np.ndarray) -> CanonicalEpisodes:
         returns=episodes.returns[which],
         success=episodes.success[which],
     )
+
+
+def chosen_features(
+    features: Features, episodes: CanonicalEpisodes, where: Path | None
+) -> Float[np.ndarray, "E T f"]:
+    """What naturalness sees of recorded episodes.
+
+    Args:
+        features: The choice of a measurement.
+        episodes: Of its task.
+        where: Their file, for messages.
+
+    Raises:
+        UserError: The choice takes the human's observations and actions, which they lack.
+    """
+    if features.label == DEFAULT:
+        return episodes.features
+    if episodes.observations is None or episodes.actions is None:
+        raise UserError(
+            f"{where} holds no observations and actions, so features {features.label!r} cannot be "
+            "taken from it: leave --features out, or record it again with `rigid record`"
+        )
+    return features.of(episodes.features, episodes.observations, episodes.actions)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing
 from pathlib import Path
 
@@ -81,13 +81,34 @@ def measure_robots(orders: Sequence[Order], executor: Executor | None = None) ->
     fix_xla_threads()
     for order in orders:
         order.check()
-    owners: dict[SeedSearch, tuple[RobotRun, ExitStack]] = {}
     chosen = executor or on_this_machine(
         sum(order.searches for order in orders),
         sum(order.env_steps for order in orders),
         [order.subject for order in orders],
     )
-    with chosen.workers() as workers, ExitStack() as locks:
+    with closing(measure_each(orders, chosen)) as complete:
+        for _ in complete:
+            pass
+    return [load_frontier(order.out) for order in orders]
+
+
+def measure_each(orders: Iterable[Order], executor: Executor) -> Generator[Order, None, None]:
+    """Measures robots as `measure_robots` does, and says of each when it is complete.
+
+    Args:
+        orders: What to measure; taken one by one, when workers are about to run out of groups.
+        executor: Where groups run.
+
+    Yields:
+        Orders that were not complete before, each as soon as its `frontier.json` is there. Closing
+        the generator interrupts what is under way.
+
+    Raises:
+        UserError: Bad input. Everything that was measured before stays, and the same call goes on.
+    """
+    fix_xla_threads()
+    owners: dict[SeedSearch, tuple[RobotRun, ExitStack, Order]] = {}
+    with executor.workers() as workers, ExitStack() as locks:
         news = [text for text in (workers.description,) if text is not None]
 
         def searches() -> Iterator[SeedSearch]:
@@ -100,15 +121,15 @@ def measure_robots(orders: Sequence[Order], executor: Executor | None = None) ->
                 while news:  # Once for all robots.
                     order.listener.say(news.pop())
                 run.announce(workers.count)
-                owners.update((search, (run, lock)) for search in run.searches)
+                owners.update((search, (run, lock, order)) for search in run.searches)
                 yield from run.searches
 
         with closing(workers.run(searches())) as done:
             for search in done:
-                run, lock = owners.pop(search)
+                run, lock, order = owners.pop(search)
                 if run.close(search):
                     lock.close()
-    return [load_frontier(order.out) for order in orders]
+                    yield order
 
 
 def _check_budget(settings: AdversarySettings, preset: Preset) -> None:

@@ -9,9 +9,13 @@ from typing import Any
 
 import jax
 import numpy as np
-from jaxtyping import Float
 
-from rigid.compute.canonical import Divided, divide_recorded, divide_synthetic
+from rigid.compute.canonical import (
+    Divided,
+    chosen_features,
+    divide_recorded,
+    divide_synthetic,
+)
 from rigid.compute.endings import ended, measure
 from rigid.compute.identity import identity_of
 from rigid.compute.scoring import (
@@ -28,7 +32,7 @@ from rigid.learning.adversary_settings import ALONE, SHARED, AdversarySettings
 from rigid.learning.group_play import Opponent, phase_rng
 from rigid.learning.rollout import policy_actor
 from rigid.naturalness.choice import DEFAULT_MEASURE, check_measure
-from rigid.naturalness.features import DEFAULT, Features, choose_features, seen_through
+from rigid.naturalness.features import Features, choose_features, seen_through
 from rigid.naturalness.panel import train_panel
 from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.gaussian import GaussianPolicy
@@ -121,11 +125,11 @@ def _canonical(
     settings: RefereeSettings,
 ) -> tuple[Divided, int]:
     """Canonical episodes by use, and how many of them had to be played."""
+    path = canonical_path(subject)
 
     def seen(episodes: CanonicalEpisodes) -> CanonicalEpisodes:
-        return replace(episodes, features=_chosen(features, episodes, subject))
+        return replace(episodes, features=chosen_features(features, episodes, path))
 
-    path = canonical_path(subject)
     given = None if path is None else load_episodes(path, task=subject.task)
     if path is not None and given is not None and given.source == "recorded":
         if subject.canonical_draw:
@@ -150,21 +154,6 @@ def _canonical(
     )  # fmt: skip
     divided = divide_synthetic(seen(given), seen(held_out))
     return divided._replace(whole=given), count + _played(referee)
-
-
-def _chosen(
-    features: Features, episodes: CanonicalEpisodes, subject: Subject
-) -> Float[np.ndarray, "E T f"]:
-    """The chosen features of canonical episodes."""
-    if features.label == DEFAULT:
-        return episodes.features
-    if episodes.observations is None or episodes.actions is None:
-        raise UserError(
-            f"{canonical_path(subject)} holds no observations and actions, so features "
-            f"{features.label!r} cannot be taken from it: leave --features out, or record it again "
-            "with `rigid record`"
-        )
-    return features.of(episodes.features, episodes.observations, episodes.actions)
 
 
 def _played(episodes: int) -> int:

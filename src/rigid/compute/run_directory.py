@@ -26,6 +26,7 @@ from rigid.files import (
 SCHEMA = 1
 _LEFTOVER = re.compile(r"\.settings\.json\.\d+\.tmp|\.lock")
 """What a run that was killed at its very first write leaves behind."""
+_ID = re.compile(r"[\w-]+", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,24 @@ class RunDirectory:
     def report(self) -> Path:
         """The self-contained page."""
         return self.path / "report.html"
+
+    @property
+    def failures(self) -> Path:
+        """How the robot fails, for programs; only of tasks that tell."""
+        return self.path / "failures.json"
+
+    def adversary(self, point: object) -> Path:
+        """Where the adversary of a point's id lies; a stranger's id leads nowhere else.
+
+        Raises:
+            UserError: It is no id.
+        """
+        name = str(point)
+        if not _ID.fullmatch(name):
+            raise UserError(
+                f"{self.frontier} has a point {name!r}, which is no id such as s0-r1-l1"
+            )
+        return self.path / "adversaries" / name
 
 
 class OpenRun(NamedTuple):
@@ -136,7 +155,8 @@ def open_run(
     everyone = sorted({*stored["seeds"], *seeds})
     if everyone != stored["seeds"]:
         with writing_to(path):
-            for outdated in (run.frontier, run.report):  # They do not cover every seed.
+            # They do not cover every seed.
+            for outdated in (run.frontier, run.report, run.failures):
                 outdated.unlink(missing_ok=True)
             _write(run, stored["identity"], everyone, stored["provenance"])
     return OpenRun(run, tuple(everyone), version_warnings(stored["provenance"]["versions"]))

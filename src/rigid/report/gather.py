@@ -7,7 +7,6 @@ it the report simply has no replays.
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -22,6 +21,9 @@ from rigid.frontier.result import Frontier, load_frontier, measured_points
 from rigid.frontier.statistics import interval_band, sound_points_by_seed
 from rigid.report.build import build_report
 from rigid.report.discriminators import discriminators
+from rigid.report.episodes import Episode, read_episode
+from rigid.report.failure_rules import classify
+from rigid.report.failures import group, write_failures
 from rigid.report.poses import encode_poses
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import task_from_description
@@ -35,7 +37,8 @@ _LEARNING = {
     "entropy": "entropy",
 }
 _BLAME = ("solvable", "verdict", "regret")
-_ID = re.compile(r"[\w-]+", re.ASCII)
+EPISODES = ("worst", "median")
+"""Those of an adversary's scored episodes that are kept whole, in their order in the file."""
 _GRID = 101
 """Places on the x axis at which the interval band is drawn."""
 
@@ -43,18 +46,24 @@ _GRID = 101
 def write_report(directory: Path, out: Path | None = None) -> Path:
     """Writes the report of a finished run and returns its path (`report.html` in the run).
 
+    Beside it goes `failures.json`, unless the report goes elsewhere.
+
     Raises:
         UserError: The run is not finished, a file of it is damaged, or `out` cannot be written.
     """
     run = RunDirectory(directory)
     frontier = load_frontier(directory)
-    return build_report(gather(frontier, read_settings(run)), out or run.report)
+    payload = gather(frontier, read_settings(run))
+    path = build_report(payload, out or run.report)
+    if out is None:
+        write_failures(frontier, payload["failures"])
+    return path
 
 
 def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
     """The report's `Payload`, read from the run directory of `frontier`."""
-    described = settings["identity"].get("task")
-    task = task_from_description(described) if isinstance(described, Mapping) else None
+    task = task_of(settings)
+    shown = None if task is None else replays(frontier, task)
     return {
         "frontier": {**frontier.data, "points": _blamed(frontier)},
         "settings": settings,
@@ -65,9 +74,16 @@ def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
             point["id"]: learning_curves(_folder(frontier, point)) for point in frontier.points
         },
         "scene": None if task is None else task.scene(),
-        "replays": None if task is None else replays(frontier, task),
+        "replays": shown,
         "discriminators": discriminators(frontier, task),
+        "failures": group(frontier.points, shown),
     }
+
+
+def task_of(settings: Mapping[str, Any]) -> Task | None:
+    """The task of a run's settings; None where it is not one of RIGID's own."""
+    described = settings["identity"].get("task")
+    return task_from_description(described) if isinstance(described, Mapping) else None
 
 
 def _blamed(frontier: Frontier) -> list[dict[str, Any]]:
@@ -117,47 +133,69 @@ def learning_curves(adversary: Path) -> dict[str, list[float]]:
 def replays(frontier: Frontier, task: Task) -> dict[str, Any] | None:
     """Worst and median episode of every adversary, and canonical motion from the same starts.
 
-    None when the task shows nothing of an episode.
+    Each episode of an adversary comes with its `failure`. None when the task shows nothing of an
+    episode.
     """
     shown: dict[str, Any] = {"canonical": {}}
+    scene, beside = task.scene(), dict[str, Episode | None]()
     for point in frontier.points:
-        path = _folder(frontier, point) / "episodes.npz"
-        arrays = load_arrays(path, cure="measure again to get its replays back")
+        arrays = stored_episodes(frontier, point)
         if arrays["snapshots"].shape[-1] == 0:
             return None
         entry = {}
-        for number, kind in enumerate(("worst", "median")):
-            episode = arrays["shown"][number]
-            seed = int(arrays["seeds"][episode])
-            entry[kind] = {
-                **_motion(task, arrays["snapshots"][number]),
-                **_ending(task, seed, arrays["returns"][episode], arrays["outcome"][episode]),
-            }
-            if str(seed) not in shown["canonical"]:
-                ended = arrays["canonical_returns"][number], arrays["canonical_outcome"][number]
-                shown["canonical"][str(seed)] = {
-                    **_motion(task, arrays["canonical_snapshots"][number]),
-                    **_ending(task, seed, *ended),
-                }
+        for kind in EPISODES:
+            played = episode(task, arrays, kind)
+            seed = str(played["seed"])
+            if seed not in beside:
+                canonical = episode(task, arrays, kind, canonical=True)
+                shown["canonical"][seed] = _packed(canonical)
+                beside[seed] = read_episode(scene, canonical)
+            faulted = arrays["faulted"][arrays["shown"][EPISODES.index(kind)]] > 0
+            seen = None if faulted else read_episode(scene, played)
+            entry[kind] = {**_packed(played), "failure": classify(seen, beside[seed])}
         shown[point["id"]] = entry
     return shown
 
 
-def _motion(task: Task, snapshots: np.ndarray) -> dict[str, Any]:
-    """One replay, with its poses packed for the page."""
-    shown = dict(task.replay(snapshots))
-    if "poses" in shown:
-        shown["poses"] = encode_poses(shown["poses"])
-    return shown
+def stored_episodes(frontier: Frontier, point: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """What was kept of the episodes that an adversary was scored on.
+
+    Raises:
+        UserError: The file is missing or damaged.
+    """
+    path = _folder(frontier, point) / "episodes.npz"
+    return load_arrays(path, cure="measure again to get its replays back")
+
+
+def episode(
+    task: Task, arrays: Mapping[str, np.ndarray], kind: str, *, canonical: bool = False
+) -> dict[str, Any]:
+    """The replay of one stored episode, with poses as an array (frames, bodies, 7).
+
+    Args:
+        task: The one that was played.
+        arrays: `stored_episodes`, with snapshots.
+        kind: One of `EPISODES`.
+        canonical: The synthetic human instead, from the same start.
+    """
+    number = EPISODES.index(kind)
+    which = arrays["shown"][number]
+    if canonical:
+        total, outcome = arrays["canonical_returns"][number], arrays["canonical_outcome"][number]
+    else:
+        total, outcome = arrays["returns"][which], arrays["outcome"][which]
+    motion = task.replay(arrays["canonical_snapshots" if canonical else "snapshots"][number])
+    return {**motion, **_ending(task, int(arrays["seeds"][which]), total, outcome)}
+
+
+def _packed(replay: dict[str, Any]) -> dict[str, Any]:
+    """The replay with its poses packed for the page."""
+    return {**replay, "poses": encode_poses(replay["poses"])} if "poses" in replay else replay
 
 
 def _folder(frontier: Frontier, point: Mapping[str, Any]) -> Path:
-    """Where an adversary lies; a stranger's id leads nowhere else."""
-    name = str(point["id"])
-    if not _ID.fullmatch(name):
-        where = frontier.directory / "frontier.json"
-        raise UserError(f"{where} has a point {name!r}, which is no id such as s0-r1-l1")
-    return frontier.directory / "adversaries" / name
+    """Where an adversary lies."""
+    return RunDirectory(frontier.directory).adversary(point["id"])
 
 
 def _ending(task: Task, seed: int, total: np.number, outcome: np.number) -> dict[str, Any]:

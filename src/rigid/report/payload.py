@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Literal, TypedDict
 
+from rigid.report.failure_kinds import Kind
+
 
 class Band(TypedDict):
     """The hull's mean over seeds and its interval, on a grid of naturalness."""
@@ -54,17 +56,27 @@ class Geom(TypedDict):
     role: Literal["robot", "human", "chair", "tool", "floor"]
 
 
+class Keypoint(TypedDict):
+    """A point whose trajectory tells how an episode went, in the frame of a body."""
+
+    name: str
+    body: int
+    pos: Sequence[float]
+
+
 class Scene(TypedDict, total=False):
     """The bodies' names and all that is drawn.
 
     The tool's tip is the body "tool_tip", else the geom "tip" or "…_tip". `rest` has a pose
     x, y, z, w, x, y, z for every body; it places those that no replay moves, which are else at
-    the origin.
+    the origin. `keypoints` are what `rigid export --keypoints` follows; without them, the tip and
+    the human's moving parts.
     """
 
     bodies: Sequence[str]
     geoms: Sequence[Geom]
     rest: Sequence[Sequence[float]]
+    keypoints: Sequence[Keypoint]
 
 
 class Itch(TypedDict):
@@ -75,11 +87,26 @@ class Itch(TypedDict):
     limb: str
 
 
+class Failure(TypedDict):
+    """What went wrong in an episode, and when [s] it showed.
+
+    `part` is the person's, where kinds are told apart by it; `says` is for readers.
+    """
+
+    kind: Kind
+    part: str | None
+    frame: int
+    time: float
+    says: str
+
+
 class Replay(TypedDict, total=False):
     """One episode; `return` and `success` belong here too.
 
     `poses` is `rigid.report.encode_poses` of the moving `bodies`. A contact is frame, x, y, z,
-    force and kind: 0 at the itch, 1 elsewhere on the arm, 2 unwanted.
+    force, kind (0 on the limb that itches, 1 elsewhere on the arms, 2 unwanted), and the bodies of
+    robot and person, where the task tells them. `failure` is null for a helped episode, and where
+    the task tells too little.
     """
 
     seed: int
@@ -94,6 +121,7 @@ class Replay(TypedDict, total=False):
     counted: Sequence[float]
     contacts: Sequence[Sequence[float]]
     outcome: Literal["helped", "unhelped", "unwanted_contact"]
+    failure: Failure | None
 
 
 class Accuracy(TypedDict):
@@ -141,12 +169,52 @@ class Discriminators(TypedDict):
     poses: Poses | None
 
 
+class FailureExample(TypedDict):
+    """An episode that shows a mode: of the point `id`, its worst or its median one."""
+
+    id: str
+    episode: Literal["worst", "median"]
+    naturalness: float
+    frame: int
+    time: float
+    says: str
+
+
+class FailureMode(TypedDict):
+    """Failures of one kind (and one part of the person), over all humans found.
+
+    `share` of all episodes is an estimate: of each human two episodes are looked at, and its
+    outcomes are split over those of them that ended alike. `points` begin with the most natural.
+    """
+
+    kind: Kind
+    part: str | None
+    title: str
+    meaning: str
+    points: Sequence[str]
+    naturalness: Sequence[float]
+    share: float
+    example: FailureExample
+
+
+class FailureModes(TypedDict):
+    """How the `humans` found make the robot fail, the modes of the most natural first.
+
+    `unseen` is the share of episodes that failed in ways that no episode looked at shows.
+    """
+
+    humans: int
+    modes: Sequence[FailureMode]
+    unseen: float
+
+
 class Payload(TypedDict, total=False):
     """The whole report.
 
     `replays` maps a point's id to {"worst": Replay, "median": Replay}, "canonical" to
     {seed: Replay} and "passive" to a Replay; a point's motion stands beside the canonical one of
-    the same seed. `discriminators` is by search seed, without those that were never examined.
+    the same seed. `discriminators` is by search seed, without those that were never examined;
+    `failures` is null where the task tells too little of its episodes.
     """
 
     frontier: Mapping[str, object]
@@ -158,3 +226,4 @@ class Payload(TypedDict, total=False):
     scene: Scene | None
     replays: Mapping[str, object] | None
     discriminators: Mapping[str, Discriminators] | None
+    failures: FailureModes | None

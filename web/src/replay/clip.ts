@@ -61,6 +61,8 @@ export interface Clip {
   readonly return: number | null;
   readonly success: boolean | null;
   readonly outcome: string;
+  /** What went wrong, and when; null where nothing did, or nothing is known. */
+  readonly failure: { readonly frame: number; readonly says: string } | null;
 }
 
 const KINDS: readonly ContactKind[] = ["itch", "other", "unwanted"];
@@ -137,6 +139,12 @@ function readItch(value: unknown): Clip["itch"] {
   return body === null ? null : { body, pos: vector(raw["pos"]), limb: text(raw["limb"]) };
 }
 
+function readFailure(value: unknown): Clip["failure"] {
+  const raw = dict(value);
+  const frame = number(raw["frame"]);
+  return frame === null ? null : { frame, says: text(raw["says"]) };
+}
+
 /** An episode, or null where none was stored or its poses are damaged. */
 export function readClip(value: unknown): Clip | null {
   const raw = dict(value);
@@ -159,5 +167,6 @@ export function readClip(value: unknown): Clip | null {
     return: number(raw["return"]),
     success: typeof raw["success"] === "boolean" ? raw["success"] : null,
     outcome: text(raw["outcome"]),
+    failure: readFailure(raw["failure"]),
   };
 }

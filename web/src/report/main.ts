@@ -3,14 +3,15 @@ import "../styles/report.css";
 import { h } from "../base/dom.js";
 import { Signal } from "../base/signal.js";
 import { details } from "./details.js";
+import { failureModes } from "./failure-modes.js";
 import { frontierFigure } from "./frontier-figure.js";
 import { learning } from "./learning.js";
 import { headlines, masthead } from "./masthead.js";
 import { firstPoint, forcesArePhysical } from "./measures.js";
-import { failureModes, searchFigure } from "./overview.js";
+import { endings, searchFigure } from "./overview.js";
 import { readPayload, type Payload, type Point } from "./payload.js";
 import { provenance } from "./provenance.js";
-import { replayPanel } from "./replay-panel.js";
+import { replayPanel, type Moment } from "./replay-panel.js";
 import { pointsTable } from "./table.js";
 
 /** The chosen id, kept in the address so that a link can point at a failure. */
@@ -40,16 +41,21 @@ function unfoldOnPaper(): void {
 function page(payload: Payload): HTMLElement {
   const { id, point } = selection(payload);
   const physical = forcesArePhysical(payload.settings);
+  const moment = new Signal<Moment | null>(null);
   return h("div", { class: "page" },
     masthead(payload),
     h("main", {},
       headlines(payload),
       h("div", { class: "stage" },
         frontierFigure(payload, id),
-        replayPanel(payload, point, physical)),
+        replayPanel(payload, point, physical, moment)),
       details(payload, point, physical),
+      failureModes(payload, id, physical, (example) => {
+        id.value = example.id;
+        moment.value = { which: example.which, frame: example.frame };
+      }),
       learning(payload, point, (next) => (id.value = next)),
-      h("div", { class: "pair" }, failureModes(payload, id), searchFigure(payload, id)),
+      h("div", { class: "pair" }, endings(payload, id), searchFigure(payload, id)),
       pointsTable(payload, id, physical),
       provenance(payload)));
 }

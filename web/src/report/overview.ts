@@ -1,4 +1,4 @@
-/** Figures over all humans found: failure modes, and where the search looked. */
+/** Figures over all humans found: how episodes ended, and where the search looked. */
 import { caption, h } from "../base/dom.js";
 import { percent } from "../base/format.js";
 import type { Signal } from "../base/signal.js";
@@ -19,12 +19,12 @@ function columnOf(point: Point): OutcomeColumn[] {
 }
 
 /** How episodes ended for every human. */
-export function failureModes(payload: Payload, chosen: Signal<string | null>): HTMLElement {
+export function endings(payload: Payload, chosen: Signal<string | null>): HTMLElement {
   const host = h("div", { class: "chart" });
   outcomeChart(host, payload.points.flatMap(columnOf), chosen);
   const key = OUTCOMES.map(([kind, name]) => h("li", {}, h("span", { class: `swatch ${kind}` }), name));
   return h("section", { class: "band-section" },
-    h("h2", {}, "Failure modes"),
+    h("h2", {}, "How episodes ended"),
     h("figure", {}, h("ul", { class: "legend" }, ...key), host,
       caption(
         "One column for every human found, the least natural at the left: how its episodes ended.",

@@ -5,6 +5,7 @@
 import { type Dict, dict, lambda, list, number, numbers, text } from "../base/read.js";
 import { readScene, readClip, type Clip, type Scene } from "../replay/clip.js";
 import { readDiscriminators, type Discriminators } from "./discriminators.js";
+import { readFailures, type Failures } from "./failures.js";
 
 export interface Outcomes {
   readonly helped: number;
@@ -70,6 +71,8 @@ export interface Payload {
   readonly replays: Replays;
   /** By search seed, those that were examined. */
   readonly discriminators: ReadonlyMap<string, Discriminators>;
+  /** Null where nothing is known of how episodes failed. */
+  readonly failures: Failures | null;
 }
 
 /** Decodes an episode when it is asked for: decoding all of them would delay the page. */
@@ -172,5 +175,6 @@ export function readPayload(value: unknown): Payload {
     scene: readScene(raw["scene"]),
     replays: readReplays(raw["replays"]),
     discriminators: readDiscriminators(raw["discriminators"]),
+    failures: readFailures(raw["failures"]),
   };
 }

@@ -1,5 +1,5 @@
 /** The failure itself: the chosen episode beside canonical play from the same start. */
-import { caption, h } from "../base/dom.js";
+import { button, caption, h } from "../base/dom.js";
 import { fixed } from "../base/format.js";
 import { Signal } from "../base/signal.js";
 import { theme } from "../base/theme.js";
@@ -11,6 +11,12 @@ import { View } from "../replay/view.js";
 import type { Payload, Point } from "./payload.js";
 import { transport, type Which } from "./transport.js";
 import { outcomeText, title } from "./words.js";
+
+/** A moment of an episode of the chosen human, to be shown. */
+export interface Moment {
+  readonly which: Which;
+  readonly frame: number;
+}
 
 /** One pane: a canvas with its name and its ending. */
 class Pane {
@@ -66,7 +72,9 @@ function pictureKey(): HTMLElement {
 }
 
 /** The panel for the chosen point; without stored replays, a sentence that says so. */
-export function replayPanel(payload: Payload, chosen: Signal<Point | null>, physical: boolean): HTMLElement {
+export function replayPanel(
+  payload: Payload, chosen: Signal<Point | null>, physical: boolean, moment: Signal<Moment | null>,
+): HTMLElement {
   if (!payload.replays.stored || !payload.scene) {
     return h("section", { class: "replay", "aria-label": "Replay" },
       h("p", { class: "empty" }, "Replays were not stored with this frontier, so there is no motion to show."));
@@ -82,6 +90,7 @@ export function replayPanel(payload: Payload, chosen: Signal<Point | null>, phys
     view.onOrbit((position, target) => others.forEach((other) => other.lookFrom(position, target)));
   }
   const rows = h("div", { class: "strips" });
+  const says = h("p", { class: "failure-says" });
   const bar = transport(clock, which, ghost, () => views.forEach((view) => view.reset()));
   let live: StripRow[] = [];
   let beside: Clip | null = null;
@@ -97,6 +106,7 @@ export function replayPanel(payload: Payload, chosen: Signal<Point | null>, phys
     attack.view?.overlay(ghost.value ? beside : null);
     live = clip ? strips(clip, beside, physical).map((strip) => new StripRow(strip, clip.frames, (t) => clock.seek(t))) : [];
     rows.replaceChildren(...live.map(({ element }) => element));
+    says.replaceChildren(...(clip ? wentWrong(clip, (frame) => clock.seek(frame)) : []));
     bar.load(clip);
     clock.load(clip?.frames ?? 1, clip?.dt ?? 0.1, clip && !wasPlaying ? tellingFrame(clip) : 0);
     tick(clock.time.value);
@@ -112,8 +122,8 @@ export function replayPanel(payload: Payload, chosen: Signal<Point | null>, phys
   which.watch(() => load(chosen.value));
   ghost.watch((shown) => attack.view?.overlay(shown ? beside : null));
 
-  return h("figure", { class: "replay", "aria-label": "Replay" },
-    h("div", { class: "panes" }, attack.element, natural.element), bar.element, rows, pictureKey(),
+  const figure = h("figure", { class: "replay", "aria-label": "Replay" },
+    h("div", { class: "panes" }, attack.element, natural.element), bar.element, says, rows, pictureKey(),
     caption(
       "An episode of the chosen human beside canonical play from the same start, at the same moment.",
       physical
@@ -121,5 +131,20 @@ export function replayPanel(payload: Payload, chosen: Signal<Point | null>, phys
         : "One episode shows how a failure looks, not how often it happens. *Forces are not physical: the paper's servo caps every joint at 1 N·m.",
       "Drag to turn both.",
     ));
+  moment.watch((next) => {
+    if (next === null) return;
+    which.value = next.which;
+    clock.seek(next.frame);
+    figure.scrollIntoView({ block: "nearest" });
+    bar.focus(); // Enter plays it, wherever the page was.
+  });
+  return figure;
+}
+
+/** A sentence on what went wrong, which leads to the moment. */
+function wentWrong({ failure, dt }: Clip, seek: (frame: number) => void): Node[] {
+  if (failure === null) return [];
+  const when = button(`${fixed(failure.frame * dt, 1)} s`, () => seek(failure.frame), { class: "link" });
+  return [document.createTextNode("What went wrong, at "), when, document.createTextNode(`: ${failure.says}.`)];
 }
 

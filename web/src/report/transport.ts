@@ -10,6 +10,8 @@ export interface Transport {
   readonly element: HTMLElement;
   /** Takes the marks of another episode. */
   load(clip: Clip | null): void;
+  /** Takes the keyboard to its first control, which plays. */
+  focus(): void;
 }
 
 const PLAY = "M3 1.5v13l11-6.5z";
@@ -85,9 +87,11 @@ export function transport(
   });
   ghost.watch((shown) => overlay.setAttribute("aria-pressed", String(shown)));
   const reset = button("reset view", resetViews, { class: "quiet" });
+  const play = playButton(clock);
   return {
-    element: h("div", { class: "transport" }, playButton(clock), scrub.element,
+    element: h("div", { class: "transport" }, play, scrub.element,
       h("div", { class: "transport-options" }, episode.element, speed.element, overlay, reset)),
     load: scrub.load,
+    focus: () => play.focus({ preventScroll: true }),
   };
 }

@@ -1,0 +1,221 @@
+"""`rigid export`: films of episodes, and the figure of keypoints."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import tyro
+
+from rigid.commands.parsing import at_least, printable
+from rigid.errors import UserError
+
+if TYPE_CHECKING:
+    from rigid.report.film import FilmSettings
+    from rigid.report.motion import Shown
+
+_shown_as = tyro.conf.arg
+_OF_RUNS = ("point", "episode", "side_by_side", "keypoints")
+_OF_PAIRS = ("robot", "human", "seed")
+_FINEST = 240
+"""Pictures per second; more is no film. Ours."""
+_SMALLEST, _LARGEST = 64, 4096
+"""Width and height of a film [pixels]; beyond, graphics drivers differ. Ours."""
+
+
+@dataclass(frozen=True)
+class ExportCommand:
+    """Write a film of an episode, or a figure of how keypoints moved in failures.
+
+    A run is shown by the most adversarial of its points at naturalness 0.8 or more, from 0.4 to
+    0.8, and below 0.4: a figure by the worst episodes of all three, a film by an episode of the
+    first that there is. Without a run, a film shows a new episode of any robot and human, the one
+    of `rigid evaluate --episodes 1` with the same --seed. What the robot touches and should not is
+    red while the contact lasts.
+
+    Examples:
+      rigid export runs/vanilla --video worst.mp4 --side-by-side
+      rigid export runs/vanilla --video median.webp --point s0-r1-l3 --episode median
+      rigid export --robot my/robot --human builtin:passive --seed 3 --video episode.mp4
+      rigid export runs/vanilla --keypoints failures.pdf
+    """
+
+    directory: Annotated[Path | None, tyro.conf.Positional, _shown_as(metavar="PATH")] = None
+    """A finished run directory; leave it out to film any pair."""
+    video: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Film to write: .mp4, which needs the extra `video`, or .webp."""
+    keypoints: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Figure to write, .pdf, .svg or .png: how keypoints moved in failures of the run."""
+    point: Annotated[str | None, _shown_as(metavar="ID")] = None
+    """Whose episode to film, as s0-r1-l3; by default the most natural one of the above."""
+    episode: Literal["worst", "median"] = "worst"
+    """Which of its episodes."""
+    side_by_side: bool = False
+    """Film the synthetic human from the same start beside it."""
+    robot: Annotated[str | None, _shown_as(metavar="ROBOT")] = None
+    """Without a run: builtin:NAME or a native policy directory."""
+    human: str = "builtin:synthetic-human"
+    """Without a run: builtin:NAME or a native policy directory."""
+    seed: int = 0
+    """Without a run: start and noise of the episode come from it."""
+    task: Annotated[str | None, _shown_as(metavar="TASK")] = None
+    """Registered task: the run's own if it is one of RIGID's, itch-scratching without a run."""
+    size: Annotated[str, _shown_as(metavar="WxH")] = "800x600"
+    """Of the film [pixels]; --side-by-side doubles its width."""
+    fps: int = 30
+    """Pictures per second."""
+    speed: float = 1.0
+    """1 is real time, 0.5 half of it."""
+
+    def run(self) -> int:
+        """Writes what was asked for, and says what it shows."""
+        from rigid.files import make_room
+
+        self._check_options()
+        for path, option in ((self.video, "--video"), (self.keypoints, "--keypoints")):
+            if path is not None:
+                make_room(path, option)
+        if self.video is not None:
+            _film(self, self.video)
+        if self.keypoints is not None and self.directory is not None:
+            _draw_keypoints(self.directory, self.task, self.keypoints)
+        return 0
+
+    def _check_options(self) -> None:
+        """Refuses what does not go together."""
+        if self.video is None and self.keypoints is None:
+            raise UserError("name what to write: --video FILE or --keypoints FILE")
+        if self.directory is None and self.robot is None:
+            raise UserError("name a run directory, or --robot for an episode of any pair")
+        idle = _OF_RUNS if self.directory is None else _OF_PAIRS
+        reason = "needs a run directory" if self.directory is None else "is for a film without one"
+        for option in idle:
+            if getattr(self, option) != getattr(ExportCommand, option):
+                raise UserError(f"--{option.replace('_', '-')} {reason}")
+        at_least("--seed", self.seed, 0)
+        if self.video is not None:
+            self._check_film(self.video)
+        if self.keypoints is not None:
+            _check_figure(self.keypoints)
+
+    def _check_film(self, path: Path) -> None:
+        from rigid.report.encode import check_format
+
+        settings = _settings(self)
+        check_format(path, settings.width * (2 if self.side_by_side else 1), settings.height)
+
+
+def _film(options: ExportCommand, path: Path) -> None:
+    """Draws and stores a film."""
+    scene, shown = _episode(options)
+    settings = _settings(options)
+    length = _write_film(path, scene, shown, settings, side_by_side=options.side_by_side)
+    print(f"{_line(shown)}, {length:.1f} s: {path}")
+
+
+def _episode(options: ExportCommand) -> tuple[Mapping[str, Any], Shown]:
+    """The scene, and the episode in it."""
+    from rigid.report import sources
+    from rigid.tasks.registry import make_task
+
+    if options.directory is None:
+        assert options.robot is not None
+        task = make_task(options.task or "itch-scratching")
+        scene = sources.scene_of(task)
+        return scene, sources.played(task, options.robot, options.human, options.seed)
+    run = sources.open_run(options.directory, options.task)
+    if options.point is None:
+        point = sources.worst_by_band(run.frontier.points)[0]
+    else:
+        point = sources.point_called(run.frontier, options.point)
+    return run.scene, sources.stored(run, point, options.episode)
+
+
+def _settings(options: ExportCommand) -> FilmSettings:
+    """Size and pace; refuses impossible ones."""
+    from rigid.report.film import FilmSettings
+
+    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", options.size)
+    width, height = map(int, found.groups()) if found else (0, 0)
+    if not (_SMALLEST <= width <= _LARGEST and _SMALLEST <= height <= _LARGEST):
+        raise UserError(
+            f"--size {options.size!r}: write width x height, as 800x600, each from {_SMALLEST} to "
+            f"{_LARGEST} pixels"
+        )
+    if not 1 <= options.fps <= _FINEST:
+        raise UserError(f"--fps is {options.fps}, but must be from 1 to {_FINEST}")
+    if not 0 < options.speed < math.inf:
+        raise UserError(f"--speed is {options.speed}, but must be more than 0: 1 is real time")
+    return FilmSettings(width, height, options.fps, options.speed)
+
+
+def _write_film(
+    path: Path,
+    scene: Mapping[str, Any],
+    shown: Shown,
+    settings: FilmSettings,
+    *,
+    side_by_side: bool,
+) -> float:
+    """Draws and stores a film; returns how long it is [s]."""
+    from rigid.commands.progress import TerminalListener
+    from rigid.files import write_atomically, writing_to
+    from rigid.report.encode import encode
+    from rigid.report.film import Take, film
+
+    takes = [Take(shown.motion, shown.title)]
+    if side_by_side and shown.canonical is not None:
+        takes.append(Take(shown.canonical, "the synthetic human, same start"))
+    count = len(settings.times(shown.motion))
+    with TerminalListener("filming") as listener:
+        listener.expect(count)
+
+        def watched() -> Iterator[Any]:
+            for picture in film(scene, takes, settings):
+                yield picture
+                listener.advance(1)
+
+        data = encode(watched(), path.suffix, settings.fps)
+    with writing_to(path, "--video"):
+        write_atomically(path, data)
+    return count / settings.fps
+
+
+def _check_figure(path: Path) -> None:
+    from rigid.report.keypoints import FORMATS
+
+    if path.suffix.lower() not in FORMATS:
+        raise UserError(f"--keypoints {path}: figures end in .pdf, .svg or .png")
+
+
+def _draw_keypoints(directory: Path, task: str | None, path: Path) -> None:
+    """Draws and stores the figure of a run's failures."""
+    from rigid.commands.progress import TerminalListener
+    from rigid.files import write_atomically, writing_to
+    from rigid.report import sources
+    from rigid.report.keypoints import keypoint_figure, save_figure
+
+    run = sources.open_run(directory, task)
+    points = sources.worst_by_band(run.frontier.points)
+    episodes = []
+    with TerminalListener("drawing") as listener:
+        listener.expect(len(points) + 1)
+        for point in points:
+            episodes.append(sources.stored(run, point, "worst"))
+            listener.advance(1)
+        data = save_figure(keypoint_figure(run.scene, episodes), path.suffix)
+        listener.advance(1)
+    with writing_to(path, "--keypoints"):
+        write_atomically(path, data)
+    for shown in episodes:
+        print(_line(shown))
+    print(path)
+
+
+def _line(shown: Shown) -> str:
+    """An episode's title in one line."""
+    return printable(shown.title.replace("\n", ", "))

@@ -1,0 +1,132 @@
+"""How methods stand beside each other: numbers, differences, and success with two kinds of humans.
+
+A method is one robot, or several that were made alike for different synthetic humans.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+from rigid.frontier.comparison import (
+    HEADLINE_LEVEL,
+    check_comparable,
+    numbers_of,
+    repeat_spread,
+)
+from rigid.frontier.methods import Method, compare_methods
+from rigid.frontier.result import Frontier
+from rigid.frontier.successes import Played, Success, success_of
+
+TITLES: Final[Mapping[str, str]] = {
+    "worst_at": f"worst at ≥ {HEADLINE_LEVEL}",
+    "hull_at": f"hull at {HEADLINE_LEVEL}",
+    "auc_natural": "area over [0.8, 1]",
+    "auc": "AUC",
+}
+"""The numbers of a comparison, as people read them; in the order of `NUMBERS`."""
+
+Measured = tuple[Frontier, Mapping[str, Any]]
+"""A measurement and what it was made with: `identity` of its settings.json."""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """One method of a comparison; the first is the baseline."""
+
+    method: Method
+    robots: Sequence[Frontier]
+    success: Success | None
+    """With each robot's own synthetic human, as its measurement found; None where the task defines
+    no success."""
+    unseen: Success | None
+    """With humans that the robots were not made for; None where nobody was asked."""
+
+
+def standings_of(
+    methods: Mapping[str, Sequence[Measured]], unseen: Sequence[Played] = ()
+) -> list[Standing]:
+    """Compares methods: robot i of one pairs with robot i of the others, and seeds pair as well.
+
+    Args:
+        methods: Measurements of each method's robots; the first method is the baseline.
+        unseen: What robots achieved with other humans; `robot` counts through all robots of all
+            methods.
+
+    Raises:
+        UserError: Two measurements are not of the same measure, or share no search seed.
+    """
+    _check_all(methods)
+    robots = {name: [frontier for frontier, _ in measured] for name, measured in methods.items()}
+    found = compare_methods({name: dict(enumerate(mine)) for name, mine in robots.items()})
+    standings, begun = [], 0
+    for method in found:
+        mine = robots[method.name]
+        met = [one for one in unseen if begun <= one.robot < begun + len(mine)]
+        begun += len(mine)
+        standings.append(Standing(method, mine, success_of(_canonical(mine)), success_of(met)))
+    return standings
+
+
+def notes_of(standings: Sequence[Standing]) -> list[str]:
+    """What a reader of the comparison has to know, a sentence each."""
+    baseline = standings[0]
+    notes = []
+    if len(baseline.robots) == 1:
+        numbers = numbers_of(baseline.robots[0])
+        spreads = {key: repeat_spread(numbers[key]) for key in TITLES}
+        known = [f"{spread:.3f} for {TITLES[key]}" for key, spread in spreads.items() if spread]
+        if known:
+            name = baseline.method.name
+            notes.append(f"a repeat of {name} may differ by {', '.join(known)} (95 %)")
+    if any(len(standing.robots) > 1 for standing in standings):
+        notes.append(
+            "95 % intervals over robots and search seeds, which speak of a method and not of these "
+            "robots; over seeds alone where a method has one robot"
+        )
+    if any(standing.unseen is not None for standing in standings):
+        notes.append(
+            "success with unseen humans is the mean over those that were named; others may be "
+            "harder to help"
+        )
+    steadier = (
+        f"{TITLES['hull_at']} tells robots apart more steadily: 95 % intervals of its differences "
+        f"covered 94 to 96 %, those of {TITLES['worst_at']} 76 to 87 % (results/coverage)"
+    )
+    return [*notes, steadier, "lower is more robust; estimates at this search power, not bounds"]
+
+
+def unlike_pairs(methods: Mapping[str, Sequence[Measured]]) -> list[str]:
+    """Sentences on paired robots that were made for different synthetic humans.
+
+    Only where a method has several robots: their order then says which of them belong together.
+    """
+    if max(map(len, methods.values())) < 2:
+        return []
+    (baseline, first), *others = methods.items()
+    return [
+        f"robot {number} of {name} was made for another synthetic human than robot {number} of "
+        f"{baseline}: the two pair by their order alone"
+        for name, robots in others
+        for number, ((_, mine), (_, theirs)) in enumerate(zip(robots, first, strict=False), 1)
+        if mine.get("human") != theirs.get("human")
+    ]
+
+
+def _check_all(methods: Mapping[str, Sequence[Measured]]) -> None:
+    everyone = [
+        (name if len(measured) == 1 else f"{name} ({frontier.directory})", frontier, identity)
+        for name, measured in methods.items()
+        for frontier, identity in measured
+    ]
+    for other in everyone[1:]:
+        check_comparable(everyone[0], other)
+
+
+def _canonical(robots: Sequence[Frontier]) -> Iterator[Played]:
+    """Each robot's canonical play, where its success is known."""
+    for number, frontier in enumerate(robots):
+        played = frontier.data["canonical"]
+        if played["success"] is not None:
+            yield Played(number, float(played["success"]), int(played["episodes"]))

@@ -1,0 +1,139 @@
+"""`rigid export`: films and figures that can be read again, and refusals before any work."""
+
+from __future__ import annotations
+
+import av
+import numpy as np
+import pytest
+from PIL import Image
+
+from tests.report.sample_payload import sample_payload
+from tests.report.struck import FRAMES, run_of_strikes
+
+SMALL = ("--size", "120x90", "--fps", 20)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
+    from rigid.tasks.itch_scratching.task import ItchScratching
+
+    task = ItchScratching(ItchScratchingParameters(horizon=FRAMES - 1))
+    payload = sample_payload(seeds=1, replays=0)
+    return run_of_strikes(tmp_path_factory.mktemp("struck"), task, payload)
+
+
+def redness(picture):
+    r, g, b = np.moveaxis(picture.astype(int), -1, 0)
+    return int(((r > 110) & (r > 2 * g) & (r > 2 * b)).sum())
+
+
+def played_webp(path):
+    """Size and length [ms]; equal pictures are stored as one."""
+    with Image.open(path) as film:
+        lasting = 0
+        for number in range(film.n_frames):
+            film.seek(number)
+            film.load()
+            lasting += film.info["duration"]
+        return film.size, lasting
+
+
+def test_an_mp4_shows_the_worst_natural_point_and_turns_red(rigid, run, tmp_path):
+    out = tmp_path / "deep" / "worst.mp4"
+    code, text, _ = rigid("export", run, "--video", out, *SMALL)
+    assert code == 0
+    assert text.startswith("s0-r1-l0 · λ 0.25 · naturalness 0.85")
+    assert text.endswith(f"worst episode: return -7.0, unwanted contact, 0.6 s: {out}\n")
+    with av.open(str(out)) as container:
+        frames = [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+    assert len(frames) == 2 * (FRAMES - 1) + 1
+    assert frames[0].shape == (90, 120, 3)
+    assert redness(frames[0]) == 0
+    assert redness(frames[-1]) > 10
+    assert [path.name for path in out.parent.iterdir()] == ["worst.mp4"]
+
+
+def test_a_webp_side_by_side_is_twice_as_wide(rigid, run, tmp_path):
+    out = tmp_path / "both.webp"
+    options = ("--point", "s0-r1-l2", "--episode", "median", "--side-by-side", "--speed", 0.5)
+    code, text, _ = rigid("export", run, "--video", out, *SMALL, *options)
+    assert code == 0
+    assert text.startswith("s0-r1-l2")
+    assert "median episode: return 9.0, helped" in text
+    assert played_webp(out) == ((240, 90), 50 * (4 * (FRAMES - 1) + 1))
+
+
+def test_any_pair_can_be_filmed_without_a_run(rigid, tmp_path, monkeypatch):
+    from rigid.tasks import registry
+    from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
+    from rigid.tasks.itch_scratching.task import ItchScratching
+
+    short = ItchScratching(ItchScratchingParameters(horizon=2))
+    monkeypatch.setattr(registry, "make_task", lambda _: short)
+    out = tmp_path / "pair.webp"
+    pair = ("--robot", "builtin:vanilla", "--human", "builtin:passive", "--seed", 3)
+    code, text, _ = rigid("export", *pair, "--video", out, *SMALL)
+    assert code == 0
+    assert text.startswith("builtin:vanilla with builtin:passive, seed 3: return ")
+    assert played_webp(out) == ((120, 90), 50 * 5)
+
+
+def test_keypoints_of_the_worst_in_each_band_are_drawn(rigid, run, tmp_path):
+    out = tmp_path / "failures.pdf"
+    code, text, _ = rigid("export", run, "--keypoints", out)
+    assert code == 0
+    lines = text.splitlines()
+    assert [line.split(" ")[0] for line in lines] == ["s0-r1-l0", "s0-r1-l2", str(out)]
+    assert out.read_bytes().startswith(b"%PDF")
+
+
+REFUSED = {
+    "name what to write: --video FILE or --keypoints FILE": [],
+    "films end in .mp4 or .webp, not in .gif": ["--video", "a.gif"],
+    "figures end in .pdf, .svg or .png": ["--keypoints", "a.jpg"],
+    "--size '9x9': write width x height, as 800x600": ["--video", "a.webp", "--size", "9x9"],
+    "--fps is 0, but must be from 1 to 240": ["--video", "a.webp", "--fps", "0"],
+    "--speed is 0.0, but must be more than 0": ["--video", "a.webp", "--speed", "0"],
+    "--robot is for a film without one": ["--video", "a.webp", "--robot", "builtin:vanilla"],
+    "--seed is for a film without one": ["--video", "a.webp", "--seed", "4"],
+    "--point 's9' is none of this run's": ["--video", "a.webp", "--point", "s9"],
+}
+
+
+@pytest.mark.parametrize("message", REFUSED)
+def test_what_cannot_be_done_with_a_run_is_refused(rigid, run, tmp_path, monkeypatch, message):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = rigid("export", run, *REFUSED[message])
+    assert (code, out) == (2, "")
+    assert message in err
+    assert list(tmp_path.iterdir()) == []
+
+
+PAIR = ["--robot", "builtin:vanilla"]
+REFUSED_WITHOUT = {
+    "name a run directory, or --robot": ["--video", "a.webp"],
+    "--side-by-side needs a run directory": ["--video", "a.webp", *PAIR, "--side-by-side"],
+    "--point needs a run directory": ["--video", "a.webp", *PAIR, "--point", "s0-r1-l0"],
+    "--keypoints needs a run directory": ["--keypoints", "a.pdf", *PAIR],
+    "--seed is -1, but must be at least 0": ["--video", "a.webp", *PAIR, "--seed=-1"],
+    "has no picture": ["--video", "a.webp", *PAIR, "--task", "analytic/hand-tracking"],
+}
+
+
+@pytest.mark.parametrize("message", REFUSED_WITHOUT)
+def test_what_needs_a_run_is_refused_without_one(rigid, tmp_path, monkeypatch, message):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = rigid("export", *REFUSED_WITHOUT[message])
+    assert (code, out) == (2, "")
+    assert message in err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("option", ["--video", "--keypoints"])
+def test_a_place_that_cannot_be_written_is_refused_before_any_work(rigid, run, option):
+    name = {"--video": "/proc/a.webp", "--keypoints": "/proc/a.pdf"}[option]
+    code, _, err = rigid("export", run, option, name)
+    assert code == 2
+    assert f"cannot write to {name} (" in err
+    assert err.endswith(f"choose another place with {option}\n")

@@ -1,0 +1,123 @@
+"""`rigid gate` on the toy measurement."""
+
+from __future__ import annotations
+
+import json
+import shutil
+
+import pytest
+
+from rigid.frontier.intervals import t_interval, upper_bound
+
+
+def test_the_gate_opens_when_every_upper_bound_keeps_its_limit(rigid, two_runs):
+    code, out, _ = rigid("gate", two_runs[0], "--max-worst", "1", "--max-auc", "1")
+    assert code == 0
+    assert [line[:6] for line in out.splitlines()[:3]] == ["ok    ", "ok    ", "upper "]
+
+
+def test_the_gate_says_where_no_natural_human_was_found(rigid, two_runs, tmp_path):
+    """All humans stand at naturalness 0.5."""
+    copy = shutil.copytree(two_runs[0], tmp_path / "half-natural")
+    data = json.loads((copy / "frontier.json").read_text())
+    data["points"] = [{**point, "naturalness": 0.5} for point in data["points"]]
+    (copy / "frontier.json").write_text(json.dumps(data))
+    found = [
+        "canonical play stands there"
+        in rigid("gate", copy, "--max-worst", "1", "--at-naturalness", level)[1]
+        for level in ("0.6", "0.4")
+    ]
+    assert found == [True, False]
+
+
+def test_the_gate_shuts_with_3_at_an_upper_bound_beyond_its_limit(rigid, two_runs, small_run):
+    mean, bound = small_run.auc, upper_bound(list(small_run.data["auc_by_seed"].values()))
+    assert mean < bound
+    code, out, _ = rigid("gate", two_runs[0], "--max-auc", (mean + bound) / 2)
+    assert code == 3
+    assert out.startswith(f"FAILED  AUC: {mean:.3f}, upper bound {bound:.3f} (t")
+
+
+@pytest.fixture
+def with_worst(small_run, tmp_path):
+    """Makes the toy measurement one whose seeds found these worst humans at naturalness 0.9."""
+
+    def changed(*worst):
+        directory = tmp_path / "seeds"
+        shutil.copytree(small_run.directory, directory)
+        data = json.loads((directory / "frontier.json").read_text())
+        data["points"] = [
+            {**data["points"][0], "id": f"s{seed}", "seed": seed}
+            | {"naturalness": 0.9, "adversarialness": height, "faults": 0}
+            for seed, height in enumerate(worst)
+        ]
+        data["auc_by_seed"] = {str(seed): 0.5 for seed in range(len(worst))}
+        data["canonical"]["adversarialness"] = 0.0
+        (directory / "frontier.json").write_text(json.dumps(data))
+        return directory
+
+    return changed
+
+
+SKEWED, SYMMETRIC = (0.01, 0.02, 0.06), (0.5, 0.55, 0.6)
+
+
+def test_seeds_skewed_towards_0_that_t_would_let_pass_fail(rigid, with_worst):
+    assert t_interval(SKEWED).high < 0.1
+    code, out, _ = rigid("gate", with_worst(*SKEWED), "--max-worst", "0.1")
+    assert code == 3
+    verdict, reason = out.splitlines()
+    assert verdict == (
+        "FAILED  worst at naturalness ≥ 0.9: 0.030, upper bound 0.228 (t of the logit; t: 0.096), "
+        "limit 0.1"
+    )
+    assert reason == (
+        "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since t alone "
+        "promises too much where seeds are skewed towards 0"
+    )
+
+
+def test_symmetric_seeds_in_the_middle_are_held_by_t(rigid, with_worst):
+    high = t_interval(SYMMETRIC).high
+    code, out, _ = rigid("gate", with_worst(*SYMMETRIC), "--max-worst", high + 1e-6)
+    assert code == 0
+    assert f"0.550, upper bound {high:.3f} (t), limit" in out
+
+
+def test_the_gate_looks_from_the_naturalness_that_was_asked_for(rigid, two_runs, small_run):
+    worst = [p["adversarialness"] for p in small_run.points if p["seed"] == 0]
+    code, out, _ = rigid("gate", two_runs[0], "--max-worst", "0", "--at-naturalness", "0")
+    assert code == 3
+    assert max(worst) > 0
+    assert "worst at naturalness ≥ 0: " in out
+
+
+def test_a_robot_that_became_worse_fails_against_its_baseline(rigid, two_runs):
+    better, worse = two_runs
+    options = ("--at-naturalness", "0")
+    assert rigid("gate", better, "--baseline", better, *options)[0] == 0
+    code, out, _ = rigid("gate", worse, "--baseline", better, *options)
+    assert code == 3
+    assert "worst at naturalness ≥ 0, minus the baseline's" in out
+    assert "(paired t), limit 0" in out
+    assert "of the logit" not in out
+    assert rigid("gate", worse, "--baseline", better, "--margin", "1", *options)[0] == 0
+
+
+def test_a_single_seed_never_passes(rigid, single_run):
+    code, out, _ = rigid("gate", single_run.directory, "--max-worst", "1")
+    assert code == 3
+    assert "from one seed has no upper bound; add --seeds" in out
+
+
+BAD = {
+    "no limit": ((), "name a limit: --max-worst, --max-auc or --baseline"),
+    "level": (("--max-worst", "1", "--at-naturalness", "2"), "--at-naturalness is 2.0, but must"),
+}
+
+
+@pytest.mark.parametrize(("options", "message"), BAD.values(), ids=BAD)
+def test_a_gate_without_sense_exits_with_2(rigid, two_runs, options, message):
+    code, _, err = rigid("gate", two_runs[0], *options)
+    assert code == 2
+    assert message in err
