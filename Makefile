@@ -1,6 +1,6 @@
 # RIGID: every command of a contributor. A bare machine needs python3 (3.11 or newer) and make.
 .DEFAULT_GOAL := help
-.PHONY: help demo test check lint format bundled bench bench-standard clean
+.PHONY: help demo test check lint format bundled bench bench-standard paper clean
 .NOTPARALLEL:
 
 PYTHON ?= python3
@@ -15,6 +15,8 @@ demo: .venv/.rigid ## measures the bundled robot in three minutes: runs/demo/rep
 
 test: .venv/.dev web/node_modules/.package-lock.json ## the fast suite, Python and web
 	@command -v chromium >/dev/null || { $(call apt,chromium); }
+	@$(BIN)/python -c 'import sys, rigid.report.canvas as c; sys.exit(c.backend() is None)' || \
+		{ $(call apt,libegl1 libgl1-mesa-dri libopengl0); }
 	$(BIN)/pytest --numprocesses auto --dist loadfile
 	$(npm) test
 
@@ -36,8 +38,12 @@ bundled: .venv/.rigid ## retrains every bundled policy and data set from its see
 bench: .venv/.rigid ## measures speed: benchmarks/latest.json
 	$(BIN)/rigid bench --json benchmarks/latest.json
 
-bench-standard: .venv/.rigid ## holds preset standard against preset paper: results/standard/, takes ten hours
+bench-standard: .venv/.rigid ## holds preset standard against preset paper: goes on from what results/standard/ keeps, ten hours in all
 	$(BIN)/python -m benchmarks.standard
+
+paper: .venv/.rigid ## the paper's experiments: results/paper/ [PRESET=demo] [ROBOT_SEEDS=0,1,2] [FOR=90m]
+	$(BIN)/python -m benchmarks.paper $(if $(PRESET),--preset $(PRESET)) \
+		$(if $(ROBOT_SEEDS),--robot-seeds $(ROBOT_SEEDS)) $(if $(FOR),--for $(FOR))
 
 clean: ## removes all that was built or cached; keeps runs/
 	rm -rf .venv .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache dist

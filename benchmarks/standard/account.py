@@ -8,27 +8,31 @@ from pathlib import Path
 from benchmarks.paired import Row, difference_text, find, markdown
 from benchmarks.robots import OWN_HUMAN
 from benchmarks.standard.costs import ratio
-from benchmarks.standard.pairing import NUMBERS, POOLED
+from benchmarks.standard.pairing import NUMBERS, POOLED, Measured
 from benchmarks.standard.plan import CURVE_SEEDS, DECIDING, LIMIT, Plan, Robot
 from benchmarks.standard.verdicts import verdict_line
-from rigid.frontier.result import Frontier
 from rigid.presets import Preset
 
 _OVERHEAD = 8
-"""Of a call that adds a seed [core-s], whatever the preset; measured with `builtin:vanilla`."""
+"""Of every measurement [core-s], whatever its preset and seeds; measured with `builtin:vanilla`."""
 _TEMPLATE = Path(__file__).with_name("account.md")
-Measured = Mapping[str, Mapping[str, Frontier]]
-"""Complete measurements, by robot and preset."""
 
 
-def account(plan: Plan, measured: Measured, rows: Sequence[Row], costs: Sequence[Row]) -> str:
+def account(
+    plan: Plan,
+    measured: Mapping[str, Measured],
+    rows: Sequence[Row],
+    costs: Sequence[Row],
+    made_with: Mapping[str, int],
+) -> str:
     """The text of `README.md`.
 
     Args:
-        plan: The study.
-        measured: Complete measurements, by robot and preset.
+        plan: The study, with every seed of which anything is known.
+        measured: What is there, by robot.
         rows: From `pairing.table_rows`, those of the means over robots included.
         costs: From `costs.cost_rows`.
+        made_with: How many parts were made with what; from `checking.makers`.
     """
     others = [number for number in NUMBERS if number not in DECIDING]
     return _TEMPLATE.read_text(encoding="utf-8").format(
@@ -42,6 +46,7 @@ def account(plan: Plan, measured: Measured, rows: Sequence[Row], costs: Sequence
         costs=_costs(costs), overhead=_OVERHEAD * (CURVE_SEEDS - 1),
         made="\n".join(f"- {_made(plan, robot, measured)}" for robot in plan.robots),
         seeds=", ".join(str(seed) for seed in plan.seeds),
+        makers="\n".join(f"- {count} with {maker}" for maker, count in sorted(made_with.items())),
         presets=markdown(
             ("preset", "λ by round", "from λ", "iterations", "episodes", "networks", "scored on"),
             [_preset(name, preset) for name, preset in plan.presets().items()],
@@ -53,7 +58,10 @@ def _complete(plan: Plan, rows: Sequence[Row]) -> str:
     count = sum(find(rows, robot=robot.name, number="auc")["seeds"] for robot in plan.robots)
     planned = len(plan.robots) * len(plan.seeds)
     if count < planned:
-        return f"**So far {count} of {planned} pairs are complete; the same command goes on.**"
+        return (
+            f"**So far {count} of {planned} pairs are complete; the same command goes on, on any "
+            "machine that has this folder.**"
+        )
     return f"All {count} pairs are complete."
 
 
@@ -90,7 +98,7 @@ def _costs(costs: Sequence[Row]) -> str:
     return markdown(heads, cells)
 
 
-def _made(plan: Plan, robot: Robot, measured: Measured) -> str:
+def _made(plan: Plan, robot: Robot, measured: Mapping[str, Measured]) -> str:
     training = robot.training
     how = (
         "bundled"
@@ -98,7 +106,8 @@ def _made(plan: Plan, robot: Robot, measured: Measured) -> str:
         else f"as `rigid train vanilla` makes it, {training.iterations} iterations of "
         f"{plan.recipe.episodes} episodes, seed {training.seed}"
     )
-    found = [run.data["canonical"]["success"] for run in measured[robot.name].values()]
+    runs = [run for by_seed in measured[robot.name].values() for run in by_seed.values()]
+    found = [run.data["canonical"]["success"] for run in runs]
     success = f"; success with its human {found[0]:.2f}" if found else ""
     return f"`{robot.name}`: {how}{success}"
 

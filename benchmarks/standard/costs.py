@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from benchmarks.paired import Row, find
-from benchmarks.standard.pairing import POOLED
+from benchmarks.standard.pairing import POOLED, Measured
 from benchmarks.standard.plan import CURVE_SEEDS
 from rigid.frontier.result import Frontier
 
@@ -13,18 +13,22 @@ _SPENT = ("core_seconds", "env_steps", "env_steps_scoring")
 """Fields of `frontier.json` that add up over seeds."""
 
 
-def cost_rows(measured: Mapping[str, Mapping[str, Frontier]]) -> list[Row]:
-    """A row for each robot and preset, then the means over robots that have both.
+def cost_rows(measured: Mapping[str, Measured]) -> list[Row]:
+    """A row for each robot and preset, then the means over robots that have pairs.
 
-    Everything is of a curve of `CURVE_SEEDS` seeds: the total over the seeds that are there.
+    Everything is of a curve of `CURVE_SEEDS` seeds, from the seeds that both presets have: those of
+    a pair were most likely measured on the same machine.
 
     Args:
-        measured: Complete measurements, by robot and preset.
+        measured: What is there, by robot.
     """
-    both = {robot: runs for robot, runs in measured.items() if len(runs) == 2}
-    rows = [
-        _row(robot, preset, run) for robot, runs in both.items() for preset, run in runs.items()
-    ]
+    rows = []
+    for robot, presets in measured.items():
+        common = set.intersection(*map(set, presets.values())) if len(presets) == 2 else set()
+        rows += [
+            _row(robot, preset, [runs[seed] for seed in sorted(common)])
+            for preset, runs in presets.items() if common
+        ]  # fmt: skip
     return [*rows, *(_mean(rows, preset) for preset in ("standard", "paper") if rows)]
 
 
@@ -36,9 +40,11 @@ def ratio(rows: Sequence[Row], robot: str) -> float | None:
     return float(paper / standard) if standard > 0 else None
 
 
-def _row(robot: str, preset: str, frontier: Frontier) -> Row:
-    seeds = len(frontier.data["auc_by_seed"])
-    spent = {name: CURVE_SEEDS * frontier.data[name] / seeds for name in _SPENT}
+def _row(robot: str, preset: str, frontiers: Sequence[Frontier]) -> Row:
+    seeds = len(frontiers)
+    spent = {
+        name: CURVE_SEEDS * sum(run.data[name] for run in frontiers) / seeds for name in _SPENT
+    }
     return {"robot": robot, "preset": preset, "seeds": seeds, **_whole(spent)}
 
 

@@ -15,6 +15,10 @@ NUMBERS = (*DECIDING, "worst_at_0.8", "worst_at_0.9", "hull_at_0.9")
 POOLED = "all robots"
 
 
+Measured = Mapping[str, Mapping[int, Frontier]]
+"""Complete measurements of a robot by preset and search seed, each of that seed alone."""
+
+
 @dataclass(frozen=True)
 class Pairs:
     """One number of one robot with both presets, on the seeds that both have."""
@@ -35,18 +39,14 @@ class Pairs:
         return [self.standard[seed] - self.paper[seed] for seed in self.seeds]
 
 
-def pairs_of(robot: str, frontiers: Mapping[str, Frontier]) -> list[Pairs]:
+def pairs_of(robot: str, measured: Measured) -> list[Pairs]:
     """Every number of a robot.
 
     Args:
         robot: Its name.
-        frontiers: Its complete measurements by preset; without one of them there are no pairs.
+        measured: What is there of it; without one of the presets there are no pairs.
     """
-    nothing: dict[str, BySeed] = {number: {} for number in NUMBERS}
-    standard, paper = (
-        _values(frontiers[preset]) if preset in frontiers else nothing
-        for preset in ("standard", "paper")
-    )
+    standard, paper = (values(measured.get(preset, {})) for preset in ("standard", "paper"))
     return [on_common_seeds(robot, number, standard[number], paper[number]) for number in NUMBERS]
 
 
@@ -116,17 +116,18 @@ def _row(pairs: Pairs) -> Row:
     }
 
 
-def _values(frontier: Frontier) -> dict[str, BySeed]:
-    """Every number of a measurement, by seed."""
-    low, high = numbers_of(frontier, 0.8), numbers_of(frontier, 0.9)
-    found = {
-        "auc": high["auc"],
-        "auc_natural": high["auc_natural"],
-        "worst_at_0.8": low["worst_at"],
-        "worst_at_0.9": high["worst_at"],
-        "hull_at_0.9": high["hull_at"],
-    }
-    return {
-        name: {int(seed): value for seed, value in number.by_seed.items()}
-        for name, number in found.items()
-    }
+def values(frontiers: Mapping[int, Frontier]) -> dict[str, BySeed]:
+    """Every number by seed, of measurements of a seed each."""
+    found: dict[str, dict[int, float]] = {number: {} for number in NUMBERS}
+    for seed, frontier in frontiers.items():
+        low, high = numbers_of(frontier, 0.8), numbers_of(frontier, 0.9)
+        numbers = {
+            "auc": high["auc"],
+            "auc_natural": high["auc_natural"],
+            "worst_at_0.8": low["worst_at"],
+            "worst_at_0.9": high["worst_at"],
+            "hull_at_0.9": high["hull_at"],
+        }
+        for name, number in numbers.items():
+            found[name][seed] = number.by_seed[str(seed)]
+    return dict(found)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import NamedTuple
 
 from benchmarks.robots import QUICK_RECIPE, RECIPE, RobotPlan
 from benchmarks.short_search import QUICK_PRESET
@@ -30,6 +32,34 @@ class Robot:
     """How the study trains it; None: the bundled robot of that name."""
 
 
+class Part(NamedTuple):
+    """One search seed of one robot with one preset: a measurement of its own."""
+
+    robot: Robot
+    preset: str
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """Said when it is measured."""
+        return f"{self.robot.name}, {self.preset}, seed {self.seed}"
+
+    @property
+    def place(self) -> Path:
+        """Of its run directory, below that of all runs.
+
+        Example:
+            >>> Part(Robot("vanilla"), "paper", 3).place.as_posix()
+            'vanilla/paper/seed-3'
+        """
+        return Path(self.robot.name, self.preset, f"seed-{self.seed}")
+
+    @property
+    def other(self) -> Part:
+        """The one that it makes a pair with."""
+        return self._replace(preset="paper" if self.preset == "standard" else "standard")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Plan:
     """The study."""
@@ -48,6 +78,17 @@ class Plan:
     def presets(self) -> dict[str, Preset]:
         """Both presets by the names of their directories, the cheap one first."""
         return {"standard": self.standard, "paper": self.paper}
+
+    def search(self, preset: str) -> Preset:
+        """The budget of one part."""
+        return replace(self.presets()[preset], seeds=(0,))
+
+    def parts(self) -> list[Part]:
+        """Everything that is measured: each seed of every robot and preset, then the next seed."""
+        return [
+            Part(robot, preset, seed)
+            for seed in self.seeds for robot in self.robots for preset in self.presets()
+        ]  # fmt: skip
 
     def with_seeds(self, seeds: Sequence[int]) -> Plan:
         """The same study with other search seeds."""

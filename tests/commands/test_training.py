@@ -20,6 +20,8 @@ from rigid.learning.cooptimisation import Progress
         (["vanilla", "--pair", "nowhere"], "nowhere holds no human/: give a directory of `rigid"),
         (["gleave", "--pair", "p", "--population-iterations", "0"], "--population-iterations is 0"),
         (["gleave", "--pair", "nowhere"], "nowhere holds no human/: give a directory of `rigid"),
+        (["palm", "--pair", "p", "--diverse-iterations", "0"], "--diverse-iterations is 0, but"),
+        (["palm", "--pair", "p"], "'toy-reach' does not say which of the robot's observations"),
         (["co-optimize", "--task", "toy-rich"], "unknown task 'toy-rich', did you mean"),
     ],
 )

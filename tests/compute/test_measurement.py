@@ -9,7 +9,11 @@ from dataclasses import replace
 
 import pytest
 
-from rigid.compute.preparation import lambdas_of, seeds_of
+from rigid.compute.executors import Local
+from rigid.compute.measurement import measure_each
+from rigid.compute.preparation import lambdas_of, seeds_of, settings_for
+from rigid.compute.robot_run import Order
+from rigid.compute.subject import Subject
 from rigid.data.episodes import data_hash, save_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
@@ -160,6 +164,28 @@ def test_a_group_that_was_deleted_is_trained_again(single_run, single_copy, meas
     for name in ("frontier.json", "groups/s0-r2.json"):
         (single_copy / name).unlink()
     assert without_times(measure(single_copy, seeds=[0])) == without_times(single_run)
+
+
+@pytest.mark.usefixtures("hasty_referees")
+def test_of_several_robots_each_is_complete_before_the_next_is_taken(single_run, base, tmp_path):
+    outs, taken = [tmp_path / name for name in "ab"], []
+
+    def orders():
+        for out in outs:
+            shutil.copytree(single_run.directory, out)
+            (out / "frontier.json").unlink()
+            taken.append(out)
+            yield Order(
+                subject=subject, preset=TINY, settings=settings_for(TINY), out=out, seeds=[0]
+            )
+
+    players = (str(base / "pair" / agent) for agent in ("robot", "human"))
+    subject = Subject(FilmedReach(), *players)
+    for number, order in enumerate(measure_each(orders(), Local()), 1):
+        assert taken == outs[:number]
+        assert order.out == outs[number - 1]
+        assert load_frontier(order.out).points == single_run.points
+    assert taken == outs
 
 
 def test_a_damaged_frontier_is_named_and_deleting_it_helps(single_run, single_copy, measure):

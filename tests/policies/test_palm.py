@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cloudpickle
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -69,6 +70,11 @@ def test_a_directory_is_loaded_with_the_hash_of_what_was_saved(tmp_path):
     np.testing.assert_array_equal(acts(loaded), acts(POLICY))
     assert policy_hash(loaded) == policy_hash(POLICY) == policy_hash(tmp_path)
     assert policy_hash(untrained_palm(TASK.robot, seed=1)) != policy_hash(POLICY)
+
+
+def test_it_can_be_sent_to_another_process():
+    sent = cloudpickle.loads(cloudpickle.dumps(POLICY))
+    np.testing.assert_array_equal(acts(sent), acts(POLICY))
 
 
 @pytest.mark.parametrize("memory", [1, 2])

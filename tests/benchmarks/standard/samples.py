@@ -50,13 +50,18 @@ def _entry(place):
     }  # fmt: skip
 
 
+def each(heights, **options):
+    """A measurement for each seed."""
+    return {seed: frontier({seed: height}, **options) for seed, height in heights.items()}
+
+
 def rows_of(measured):
-    """The table of measurements by robot and preset."""
+    """The table of measurements by robot, preset and seed."""
     return table_rows(
         with_pooled([p for name, runs in measured.items() for p in pairs_of(name, runs)])
     )
 
 
 def both(standard, paper, **options):
-    """Measurements of a robot by preset, from heights by seed."""
-    return {"standard": frontier(standard, **options), "paper": frontier(paper, **options)}
+    """Measurements of a robot by preset and seed, from heights by seed."""
+    return {"standard": each(standard, **options), "paper": each(paper, **options)}

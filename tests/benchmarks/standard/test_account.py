@@ -9,11 +9,12 @@ from benchmarks.standard.costs import cost_rows
 from benchmarks.standard.drawing import draw
 from benchmarks.standard.pairing import pairs_of, with_pooled
 from benchmarks.standard.plan import PLAN
-from tests.benchmarks.standard.samples import both, frontier, rows_of
+from tests.benchmarks.standard.samples import both, each, rows_of
 
 TWO = (0, 1)
 NAMES = [robot.name for robot in PLAN.robots]
 SEEDS = PLAN.seeds
+MAKERS = {"RIGID 2.0": 4, "RIGID 1.0": 1}
 
 
 def study(*shifts, seeds=SEEDS):
@@ -26,7 +27,7 @@ def study(*shifts, seeds=SEEDS):
 
 
 def written(measured, plan=PLAN):
-    return account(plan, measured, rows_of(measured), cost_rows(measured))
+    return account(plan, measured, rows_of(measured), cost_rows(measured), MAKERS)
 
 
 def test_a_planted_difference_stands_in_verdict_and_table():
@@ -44,7 +45,7 @@ def test_a_planted_difference_stands_in_verdict_and_table():
 
 def test_an_account_under_way_says_how_many_pairs_it_has():
     text = written(study(0.0, 0.0, 0.0, seeds=(0, 1, 2)))
-    assert "**So far 9 of 30 pairs are complete; the same command goes on.**" in text
+    assert "**So far 9 of 30 pairs are complete; the same command goes on, on any machine" in text
     assert "- `vanilla`: **met** (3 seeds)" in text
 
 
@@ -57,7 +58,7 @@ def test_a_single_seed_has_no_interval_and_no_verdict():
 def test_the_cost_table_has_the_ratio():
     measured = study(0.0, 0.0, 0.0, seeds=TWO)
     for runs in measured.values():
-        runs["paper"] = frontier(dict.fromkeys(TWO, 0.5), core_seconds=1480, env_steps=10368000)
+        runs["paper"] = each(dict.fromkeys(TWO, 0.5), core_seconds=1480, env_steps=10368000)
     text = written(measured)
     assert "| vanilla | 800 | 11,840 | 14.8 | 8,000 | 82,944,000 |" in text
     assert "| all robots | 800 | 11,840 | 14.8 |" in text
@@ -84,6 +85,11 @@ def test_a_robot_that_is_not_measured_yet_is_listed_as_unknown():
     assert "- `i100-s7`: **not enough seeds** (0 seeds): `auc` unknown" in text
     assert "| `auc` | i100-s7 | 0 | unknown | unknown | unknown |" in text
     assert "**So far 4 of 30 pairs" in text
+
+
+def test_it_says_with_what_the_parts_were_made():
+    text = written(study(0.0, 0.0, 0.0, seeds=TWO))
+    assert "\n- 1 with RIGID 1.0\n- 4 with RIGID 2.0\n" in text
 
 
 def test_a_quick_run_is_stamped():

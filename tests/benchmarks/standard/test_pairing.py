@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from benchmarks.paired import find
-from benchmarks.standard.pairing import POOLED, pairs_of, seed_rows
+from benchmarks.standard.pairing import POOLED, pairs_of, seed_rows, values
 from rigid.frontier.intervals import t_interval
-from tests.benchmarks.standard.samples import both, frontier, rows_of
+from tests.benchmarks.standard.samples import both, each, frontier, rows_of
 
 
 def pairs(number, standard, paper, **options):
@@ -45,7 +45,7 @@ def test_fewer_than_two_pairs_have_no_interval():
 
 
 def test_a_robot_without_one_of_the_presets_has_no_pairs():
-    rows = rows_of({"a": {"standard": frontier({0: 0.2})}})
+    rows = rows_of({"a": {"standard": each({0: 0.2})}})
     row = find(rows, robot="a", number="auc")
     assert (row["seeds"], row["standard"], row["difference"]) == (0, None, None)
 
@@ -72,6 +72,12 @@ def test_hull_at_mixes_two_humans():
     # A third of the way from (.85, .3) to canonical play at (1, 0).
     found = pairs("hull_at_0.9", {0: 0.3}, {0: 0.3}, natural=0.85)
     assert found.standard[0] == pytest.approx(0.2)
+
+
+def test_a_seed_alone_has_the_numbers_that_it_has_among_others():
+    heights = {0: 0.2, 1: 0.4, 4: 0.9}
+    together = frontier(heights)
+    assert values(each(heights)) == values(dict.fromkeys(heights, together))
 
 
 def test_every_pair_is_listed_with_both_values():

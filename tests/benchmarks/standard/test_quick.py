@@ -14,26 +14,33 @@ from tests.benchmarks.quick import ROOT, quick_run
 
 
 @pytest.mark.slow
-def test_a_quick_run_goes_from_training_to_the_account_and_goes_on_at_once(tmp_path):
-    first = quick_run("standard", tmp_path)
-    assert first.returncode == 0, first.stderr
+def test_a_quick_run_goes_from_training_to_the_account_and_goes_on_elsewhere(tmp_path):
     results = tmp_path / "results"
-    names = {path.name for path in results.iterdir()}
-    assert names == {"README.md", "costs.csv", "figure.svg", "seeds.csv", "table.csv"}
+    first = quick_run("standard", tmp_path / "here", "--results", str(results))
+    assert first.returncode == 0, first.stderr
+    names = ("README.md", "costs.csv", "figure.svg", "seeds.csv", "table.csv")
     with (results / "seeds.csv").open() as file:
         assert len(list(csv.DictReader(file))) == 2 * 2 * 5  # Robots, seeds, numbers.
-    settings = json.loads((tmp_path / "i001-s1" / "paper" / "settings.json").read_text())
-    assert settings["seeds"] == [0, 1]
+    kept = results / "runs" / "i001-s1" / "paper" / "seed-1" / "settings.json"
+    assert json.loads(kept.read_text())["seeds"] == [1]
     before = {name: (results / name).read_bytes() for name in names}
-    again = quick_run("standard", tmp_path)
+    again = quick_run("standard", tmp_path / "there", "--results", str(results))
+    assert again.returncode == 0, again.stderr
     assert "0 of 8 measurements to go" in again.stdout
     assert "measured:" not in again.stdout
     assert {name: (results / name).read_bytes() for name in names} == before
 
 
-def test_seeds_that_cannot_be_read_are_refused_before_any_work(capsys):
-    assert main(["--seeds", "one"]) == 2
-    assert "--seeds 'one'" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        pytest.param(["--seeds", "one"], "--seeds 'one'", id="seeds"),
+        pytest.param(["--for", "soon"], "--for 'soon': write a time as 90s", id="for"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_before_any_work(capsys, arguments, message):
+    assert main(arguments) == 2
+    assert message in capsys.readouterr().err
 
 
 def test_make_help_lists_it():

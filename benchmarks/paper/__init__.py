@@ -1,0 +1,1 @@
+"""The paper's experiments with simulated people, on our own robots: `make paper`."""
