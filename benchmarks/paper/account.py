@@ -34,6 +34,7 @@ def account(plan: Plan, places: Places, tables: Mapping[str, Sequence[Row]]) -> 
         verdicts="\n".join(f"- {line}" for line in verdicts(rows, tables["differences"])),
         unseen=_successes(tables["unseen"]), crossplay=_crossplay(tables["crossplay"]),
         thorough=_comparison(tables["thorough"]), bodies=_bodies(tables["bodies"]),
+        levels=_levels(tables["levels"]), floors=_floors(tables["floors"]),
         natural=_natural(tables["natural"]), failures=_failures(places, tables["failures"]),
         own_path=places.out.as_posix(),
     )  # fmt: skip
@@ -153,6 +154,32 @@ def _bodies(rows: Sequence[Row]) -> str:
         [row["person"], f"{row['success']:.2f}",
          *(_interval(row, column) for column in ("worst_at_0.9", "auc_natural", "auc"))]
         for row in rows
+    ])  # fmt: skip
+
+
+def _levels(rows: Sequence[Row]) -> str:
+    if not rows:
+        return _NOTHING
+    methods = list(dict.fromkeys(str(row["method"]) for row in rows))
+    heads = (
+        "from naturalness", TITLES.get(methods[0], methods[0]),
+        *(f"{TITLES.get(name, name)}, minus that" for name in methods[1:]),
+    )  # fmt: skip
+    by_level: dict[float, list[Row]] = {}
+    for row in rows:
+        by_level.setdefault(row["naturalness"], []).append(row)
+    return markdown(heads, [
+        [f"{level:g}", _interval(first, "worst_at"),
+         *(_interval(row, "difference", "+.3f") for row in others)]
+        for level, (first, *others) in by_level.items()
+    ])  # fmt: skip
+
+
+def _floors(rows: Sequence[Row]) -> str:
+    if not rows:
+        return _NOTHING
+    return markdown(("method", "`auc_natural`", "its floor"), [
+        [_title(row), f"{row['auc_natural']:.3f}", f"{row['floor']:.3f}"] for row in rows
     ])  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from statistics import fmean
 from typing import Any
 
 from benchmarks.paper.crossplay import own_success, unseen_success
@@ -25,6 +26,10 @@ PAPER = {
 }  # fmt: skip
 """AUC and success that the paper prints (its table in section 5.3)."""
 
+LEVELS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+"""Naturalness from which on `worst_at` looks, in the table of levels. Ours."""
+FLOOR_SHARE = 0.1
+"""Mean distance of [0.8, 1] from 1: the weight of sabotage in the line's mean height."""
 NATURAL = (0.4, 0.8)
 """Naturalness of the failure cases that the paper shows (section 5.1)."""
 FAILURE = 0.8
@@ -87,6 +92,39 @@ def unseen_rows(measured: Measured, crossplay: Sequence[Mapping[str, Any]]) -> l
         {"method": name, **with_ends("success", unseen_success(crossplay, name))}
         for name in measured
     ]
+
+
+def level_rows(measured: Measured) -> list[Row]:
+    """`levels.csv`: `worst_at` from several naturalness on, and minus the baseline's."""
+    rows: list[Row] = []
+    for level in LEVELS if measured else ():
+        for method in compare_methods(measured, level):
+            row: Row = {"naturalness": level, "method": method.name}
+            row |= with_ends("worst_at", method.numbers["worst_at"])
+            against = None if method.against is None else method.against["worst_at"]
+            rows.append(row | with_ends("difference", against))
+    return rows
+
+
+def floor_rows(measured: Measured) -> list[Row]:
+    """`floors.csv`: `auc_natural`, and what it would be if no natural human did any harm.
+
+    A human who sabotages now and then, and is canonical else, stands on the straight line between
+    the most harmful adversary at naturalness 0 and canonical play: no search that finds sabotage
+    can read less than the mean height of that line over [0.8, 1].
+    """
+    rows: list[Row] = []
+    for method in compare_methods(measured) if measured else []:
+        floors = [
+            FLOOR_SHARE * max(p["adversarialness"] or 0.0 for p in run.points)
+            + (1 - FLOOR_SHARE) * run.data["canonical"]["adversarialness"]
+            for run in measured[method.name].values()
+        ]
+        rows.append({
+            "method": method.name, "auc_natural": method.numbers["auc_natural"].mean,
+            "floor": fmean(floors),
+        })  # fmt: skip
+    return rows
 
 
 def natural_failure_rows(measured: Measured) -> list[Row]:

@@ -20,6 +20,8 @@ from benchmarks.paper.tables import (
     TITLES,
     body_rows,
     difference_rows,
+    floor_rows,
+    level_rows,
     measured_bodies,
     measured_recipes,
     measured_thoroughly,
@@ -50,6 +52,8 @@ def write_all(plan: Plan, places: Places, measuring: Measuring) -> None:
         "thorough": method_rows(measured_thoroughly(plan, measuring), crossplay),
         "bodies": body_rows(measured_bodies(plan, measuring)),
         "crossplay": crossplay,
+        "levels": level_rows(recipes),
+        "floors": floor_rows(recipes),
         "natural": natural_failure_rows(recipes),
         "failures": failure_rows(places, recipes, plan.robot_seeds),
     }

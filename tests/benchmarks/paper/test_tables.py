@@ -6,6 +6,7 @@ import json
 
 import pytest
 
+from benchmarks.kept import kept_run
 from benchmarks.paper.account import account, verdicts
 from benchmarks.paper.failing import failure_rows
 from benchmarks.paper.measuring import Measuring
@@ -14,6 +15,8 @@ from benchmarks.paper.tables import (
     TITLES,
     body_rows,
     difference_rows,
+    floor_rows,
+    level_rows,
     measured_bodies,
     measured_recipes,
     method_rows,
@@ -113,10 +116,11 @@ def test_the_account_says_what_is_missing(places, measuring):
         "table": method_rows(measured, CROSSPLAY), "differences": difference_rows(measured),
         "unseen": unseen_rows(measured, CROSSPLAY), "crossplay": CROSSPLAY[:1], "thorough": [],
         "bodies": [], "failures": [], "natural": [],
+        "levels": [], "floors": [],
     }  # fmt: skip
     text = account(PLAN, places, tables)
     assert "So far Gleave et al. 0 of 2, PALM 0 of 2, Robust GT 1 of 2 robots" in text
-    assert text.count("Not measured yet; the same command goes on") == 4
+    assert text.count("Not measured yet; the same command goes on") == 6
 
 
 def test_failures_have_a_row_for_each_kind_of_each_robot(places):
@@ -140,3 +144,20 @@ def test_natural_failures_are_humans_of_the_papers_range_who_are_not_helped(plac
     gleave = natural_failure_rows(measured_recipes(PLAN, measuring))[1]
     assert (gleave["method"], gleave["humans"], gleave["failures"]) == ("gleave", 2, 2)
     assert (gleave["worst_success"], gleave["worst_naturalness"]) == (0.5, 0.5)
+
+
+def test_the_worst_from_each_level_on_is_compared(measuring):
+    """The attacks lie at 0.9; from 0.5 on their heights differ by 0.2."""
+    rows = level_rows(measured_recipes(PLAN, measuring))
+    (robust,) = [r for r in rows if (r["method"], r["naturalness"]) == ("robust-gt", 0.5)]
+    assert robust["difference"] == pytest.approx(-0.2)
+    assert {row["naturalness"] for row in rows} == {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}
+
+
+def test_the_floor_of_the_natural_area_is_the_line_from_sabotage_to_canonical_play(places):
+    """Sabotage stands at (0, 1), canonical play at (1, 0): the line is 0.1 high on average."""
+    keep(places, "palm", 0, {0: 0.05, 1: 0.05})
+    measured = {"palm": {0: kept_run(places.kept_run("palm", 0))}}
+    (row,) = floor_rows(measured)
+    assert row["floor"] == pytest.approx(0.1)
+    assert row["auc_natural"] == pytest.approx(0.1)

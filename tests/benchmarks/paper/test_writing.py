@@ -1,0 +1,24 @@
+"""What is written of a study that has only begun."""
+
+from __future__ import annotations
+
+from benchmarks.paper.measuring import Measuring
+from benchmarks.paper.places import Places
+from benchmarks.paper.writing import write_all
+from rigid.tasks.registry import make_task
+from tests.benchmarks.paper.samples import PLAN, keep
+
+
+def test_tables_figures_and_account_are_written_from_what_stands_and_again_alike(tmp_path):
+    places = Places(tmp_path / "raw", tmp_path / "results")
+    for name in ("vanilla", "palm"):
+        keep(places, name, 0, {0: 0.5, 1: 0.6})
+    measuring = Measuring(PLAN, places, make_task("itch-scratching"))
+    write_all(PLAN, places, measuring)
+    tables = ("table", "differences", "levels", "floors", "natural", "unseen")
+    names = {*(f"{name}.csv" for name in tables), "table.tex", "README.md"}
+    names |= {"frontiers.svg", "frontiers.pdf"}
+    assert names <= {path.name for path in places.results.iterdir()}
+    before = {name: (places.results / name).read_bytes() for name in names}
+    write_all(PLAN, places, measuring)
+    assert {name: (places.results / name).read_bytes() for name in names} == before
