@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rigid.learning import best_response, cooptimisation, personalisation
-from rigid.learning.personalisation import PersonalisationSettings
+from rigid.learning import best_response, cooptimisation
+from rigid.learning.personalisation import rollout_of
 from rigid.learning.rollout import play, policy_actor
+from rigid.policies.gaussian import GaussianPolicy
 from tests.learning.reach import OpenReach, goer
 from tests.toys import Follower, Pointer
 
@@ -24,21 +25,28 @@ def episodes():
     return played
 
 
-def rollouts_of_a_pair(episodes):
-    return cooptimisation._rollouts(episodes, 1.0)
+def rollout_of_a_team(episodes):
+    seen, done = episodes.robot_observation, episodes.robot_action
+    return cooptimisation._rollout(episodes, seen, done, slice(None), 1.0)
 
 
-def rollouts_of_a_personalised_robot(episodes):
-    return (personalisation._rollout(episodes, goer(0), 2, PersonalisationSettings()),)
+def rollout_of_a_personalised_robot(episodes):
+    seen, expert = episodes.robot_observation[..., :2], GaussianPolicy(goer(0))
+    return rollout_of(episodes, seen, [expert], [slice(0, 6)], 1.0)
 
 
-def rollouts_of_a_response(episodes):
-    return (best_response._rollout(episodes, episodes.robot_action, 1.0),)
+def rollout_of_a_response(episodes):
+    return best_response._rollout(episodes, episodes.robot_action, 1.0)
 
 
 @pytest.mark.parametrize(
-    "rollouts", [rollouts_of_a_pair, rollouts_of_a_personalised_robot, rollouts_of_a_response]
+    "rollout", [rollout_of_a_team, rollout_of_a_personalised_robot, rollout_of_a_response]
 )
-def test_a_learner_is_handed_the_weights_of_the_episodes(rollouts, episodes):
-    for rollout in rollouts(episodes):
-        np.testing.assert_array_equal(rollout.weight, episodes.weight)
+def test_a_learner_is_handed_the_weights_of_the_episodes(rollout, episodes):
+    np.testing.assert_array_equal(rollout(episodes).weight, episodes.weight)
+
+
+def test_a_human_of_a_team_is_handed_those_of_its_own_episodes(episodes):
+    seen, done = episodes.human_observation, episodes.human_action
+    rollout = cooptimisation._rollout(episodes, seen, done, slice(2, 5), 1.0)
+    np.testing.assert_array_equal(rollout.weight, episodes.weight[:, 2:5])
