@@ -23,6 +23,7 @@ from rigid.policies.loading import load_policy
 from rigid.tasks.analytic.mean_shift import kl_shift
 from rigid.tasks.analytic.offset_catch import REACH as REACH_OF_CATCH
 from rigid.tasks.analytic.offset_catch import OffsetCatch
+from tests.learned_measures import WITH_SLOW
 from tests.learning.reach import bitwise_equal
 from tests.learning.test_adversary import HUMAN, INF
 from tests.learning.test_adversary import SETTINGS as ALONE
@@ -129,7 +130,7 @@ def test_a_lambda_that_both_families_train_at_is_served_by_the_one_it_belongs_to
     )
 
 
-@pytest.mark.parametrize("measure", ["lsgan", "kl", "mmd", "temporal", "ensemble"])
+@pytest.mark.parametrize("measure", WITH_SLOW)
 def test_stopping_and_going_on_changes_nothing_under_any_measure(reach, measure, tmp_path):
     settings = replace(ALONE, sharing=FEW, measure=measure, episodes=8)
     lambdas = (0.0, 0.5, 2.0)

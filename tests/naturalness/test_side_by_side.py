@@ -11,6 +11,7 @@ from rigid.naturalness.choice import measure_named
 from rigid.naturalness.lsgan import DiscriminatorSettings
 from rigid.naturalness.measure import Motion
 from rigid.naturalness.side_by_side import SideBySide
+from tests.learned_measures import WITH_SLOW
 from tests.learning.reach import goer
 
 SETTINGS = DiscriminatorSettings(hidden=(8,), steps=40, minibatch=64, learning_rate=1e-2)
@@ -37,7 +38,7 @@ def equal(found, expected):
         np.testing.assert_allclose(mine, theirs, rtol=1e-4, atol=1e-5)
 
 
-@pytest.mark.parametrize("name", ["lsgan", "kl", "mmd", "temporal", "ensemble"])
+@pytest.mark.parametrize("name", WITH_SLOW)
 def test_each_does_what_it_would_do_alone(name):
     inner = measure_named(name, SETTINGS, "amp")
     both, seen = SideBySide(inner, 2), motions(NEAR, FAR)

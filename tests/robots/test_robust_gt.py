@@ -116,6 +116,7 @@ def test_another_robot_than_the_measured_one_is_refused(run, tmp_path):
         take_lesson([run], SETTINGS, robot=str(tmp_path / "else"))
 
 
+@pytest.mark.slow
 def test_two_rounds_search_the_robot_between_with_seeds_of_their_own(run, tmp_path):
     out = tmp_path / "robust"
 
