@@ -9,10 +9,10 @@ import pytest
 
 from rigid.data.episodes import load_episodes
 from rigid.errors import UserError
-from rigid.policies.native import load_native
+from rigid.policies.native import load_native, save_policy
 from rigid.robots.vanilla import train_vanilla
 from tests.robots.quick import ITERATIONS, PAIR, VANILLA, Seen, co_optimise, names, same
-from tests.toys import ToyReach
+from tests.toys import ToyReach, untrained_palm
 
 
 @pytest.fixture(scope="module")
@@ -150,3 +150,13 @@ def test_a_pair_of_another_task_is_refused(vanilla, tmp_path):
     )
     with pytest.raises(UserError, match="was trained for task 'other', not 'toy-reach'"):
         vanilla(tmp_path / "robot", pair=other)
+
+
+def test_a_pair_with_a_human_of_another_kind_is_refused(vanilla, tmp_path):
+    task = ToyReach()
+    save_policy(
+        untrained_palm(task.human), tmp_path / "pair" / "human",
+        agent="human", task=task.describe(), provenance={},
+    )  # fmt: skip
+    with pytest.raises(UserError, match="human holds a PalmPolicy, as no pair does: give a dir"):
+        vanilla(tmp_path / "robot", pair=tmp_path / "pair")

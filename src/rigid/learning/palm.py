@@ -3,8 +3,8 @@
 The paper, appendix 'Learning Robot Policies', after He et al. (2022). Each iteration plays episodes
 with every partner, each in its own task, and learns twice from them: PPO with each partner's expert
 to be cloned, as for the personalized robot, and the autoencoder that predicts the human's motion.
-The policy is given the mean of the latent, through which no gradient of its own flows. He et al.
-let it flow; ours keeps the latent what prediction makes of it.
+The policy is given the mean of the latent, through which no gradient of its own flows: that keeps
+the latent what prediction makes of it. Ours.
 """
 
 from __future__ import annotations

@@ -140,7 +140,11 @@ def one_of_pair(pair: Path, agent: Agent, task: Task) -> GaussianPolicy:
     if not directory.is_dir():
         raise UserError(f"{pair} holds no {agent}/: give a directory of `rigid train co-optimize`")
     policy = load_policy(str(directory), task=task, agent=agent)
-    assert isinstance(policy, GaussianPolicy)  # As every policy of a pair.
+    if not isinstance(policy, GaussianPolicy):
+        raise UserError(
+            f"{directory} holds a {type(policy).__name__}, as no pair does: give a directory of "
+            "`rigid train co-optimize`"
+        )
     return policy
 
 
