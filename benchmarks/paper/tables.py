@@ -111,20 +111,29 @@ def floor_rows(measured: Measured) -> list[Row]:
 
     A human who sabotages now and then, and is canonical else, stands on the straight line between
     the most harmful adversary at naturalness 0 and canonical play: no search that finds sabotage
-    can read less than the mean height of that line over [0.8, 1].
+    can read less than the mean height of that line over [0.8, 1]. Mean over robots and seeds.
     """
     rows: list[Row] = []
     for method in compare_methods(measured) if measured else []:
         floors = [
-            FLOOR_SHARE * max(p["adversarialness"] or 0.0 for p in run.points)
-            + (1 - FLOOR_SHARE) * run.data["canonical"]["adversarialness"]
+            FLOOR_SHARE * sabotage + (1 - FLOOR_SHARE) * run.data["canonical"]["adversarialness"]
             for run in measured[method.name].values()
+            for sabotage in _most_harmful(run).values()
         ]
         rows.append({
             "method": method.name, "auc_natural": method.numbers["auc_natural"].mean,
             "floor": fmean(floors),
         })  # fmt: skip
     return rows
+
+
+def _most_harmful(run: Frontier) -> dict[str, float]:
+    """The largest adversarialness that each search seed found."""
+    found = dict.fromkeys(run.data["auc_by_seed"], 0.0)
+    for point in run.points:
+        seed = str(point["seed"])
+        found[seed] = max(found[seed], point["adversarialness"] or 0.0)
+    return found
 
 
 def natural_failure_rows(measured: Measured) -> list[Row]:
