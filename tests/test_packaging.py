@@ -175,7 +175,7 @@ def test_no_file_of_the_project_names_a_package_registry():
     """Mirrors and offline machines install from elsewhere: the clients know where."""
     hosts = re.compile(r"\b(pypi|pythonhosted|npmjs|debian)[.](org|com)\b")
     tracked = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],  # noqa: S607, any git.
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],  # noqa: S607 - whose git, PATH says.
         cwd=ROOT,
         check=False,
         capture_output=True,

@@ -143,7 +143,7 @@ def hash_weights(architecture: Architecture, weights: Mapping[str, np.ndarray]) 
 def _read_weights(path: Path) -> Weights:
     data = read_bytes(path, cure=_CURE)
     try:
-        arrays = deserialize(data)  # type: ignore[no-untyped-call] # it ships without types
+        arrays = deserialize(data)  # type: ignore[no-untyped-call]  # safetensors ships no types.
     except SafetensorError as error:
         raise UserError(f"{path} is truncated or damaged ({error}): {_CURE}") from None
     for name, array in arrays:

@@ -74,7 +74,7 @@ class Normaliser(NamedTuple):
 
     mean: Float[Array, " o"]
     variance: Float[Array, " o"]
-    count: Float[Array, ""]  # type: ignore[assignment]  # Hides `tuple.count`, which nobody needs.
+    count: Float[Array, ""]  # type: ignore[assignment]  # Its name is on disk; hides `tuple.count`.
     """Rows behind the moments."""
 
 

@@ -14,8 +14,6 @@ from pathlib import Path
 
 from rigid.learning.cooptimisation import (
     CoOptimisationSettings,
-    Progress,
-    Team,
     co_optimise,
     start_team,
 )
@@ -92,13 +90,9 @@ def train_gleave(
     humans = [synthetic, *(population.load(name, "human", task) for name in population.humans)]
     start = checkpoint.resume(start_robot(task, privileged, settings.personalisation, seed))
 
-    def after(progress: Progress, learner: Learner) -> None:
-        checkpoint.keep(progress.iteration + 1, learner)
-        report(progress)
-
     learner = personalise(
         task, privileged, [Partner(human, expert) for human in humans], settings.personalisation,
-        seed=seed, start=start, report=after,
+        seed=seed, start=start, report=checkpoint.keeping(report),
     )  # fmt: skip
     robot = GaussianPolicy(learner.policy, memory=settings.personalisation.memory)
     store_robot(
@@ -125,13 +119,10 @@ class _Population:
         checkpoint = Checkpoint(self._place, self._task, dict(made_by))
         fresh = start_team(privileged, self._settings, seed, humans=len(self.humans))
 
-        def after(progress: Progress, team: Team) -> None:
-            checkpoint.keep(progress.iteration + 1, team)
-            report(progress)
-
         team = co_optimise(
             privileged, self._settings,
-            seed=seed, start=checkpoint.resume(fresh), grown_up=[synthetic], report=after,
+            seed=seed, start=checkpoint.resume(fresh), grown_up=[synthetic],
+            report=checkpoint.keeping(report),
         )  # fmt: skip
         self._store("robot", "robot", team.robot, privileged, made_by)
         for name, learner in zip(self.humans, team.humans, strict=True):

@@ -11,8 +11,6 @@ from pathlib import Path
 from rigid.errors import UserError
 from rigid.learning.cooptimisation import (
     CoOptimisationSettings,
-    Progress,
-    Team,
     co_optimise,
     start_team,
 )
@@ -38,11 +36,9 @@ def train_pair(
     checkpoint = Checkpoint(out, task, made_by)
     start = checkpoint.resume(start_team(privileged, settings, seed))
 
-    def after(progress: Progress, team: Team) -> None:
-        checkpoint.keep(progress.iteration + 1, team)
-        report(progress)
-
-    team = co_optimise(privileged, settings, seed=seed, start=start, report=after)
+    team = co_optimise(
+        privileged, settings, seed=seed, start=start, report=checkpoint.keeping(report)
+    )
     made: tuple[tuple[Agent, Learner, Task], ...] = (
         ("robot", team.robot, privileged),
         ("human", team.humans[0], task),  # Last: who finds it may rely on both.

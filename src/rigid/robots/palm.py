@@ -14,11 +14,10 @@ from pathlib import Path
 
 from rigid.errors import UserError
 from rigid.files import json_text
-from rigid.learning.cooptimisation import CoOptimisationSettings, Progress
+from rigid.learning.cooptimisation import CoOptimisationSettings
 from rigid.learning.motion import shown_columns
 from rigid.learning.palm import (
     Companion,
-    PalmLearner,
     PalmSettings,
     Prediction,
     held_out_prediction,
@@ -101,12 +100,13 @@ def train_palm(
     companions.append(_companion(out / _DIVERSE, diverse, recipe.diverse_share))
     start = start_palm(task, companions[0].task, recipe.palm, seed)
 
-    def after(progress: Progress, learner: PalmLearner) -> None:
-        checkpoint.keep(progress.iteration + 1, learner)
-        report(progress)
-
     learner = personalise_palm(
-        task, companions, recipe.palm, seed=seed, start=checkpoint.resume(start), report=after
+        task,
+        companions,
+        recipe.palm,
+        seed=seed,
+        start=checkpoint.resume(start),
+        report=checkpoint.keeping(report),
     )
     partners = [one.partner for one in companions]
     prediction = held_out_prediction(

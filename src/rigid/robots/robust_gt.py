@@ -21,8 +21,6 @@ from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.compute.subject import measured_robot
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier, load_frontier
-from rigid.learning.cooptimisation import Progress
-from rigid.learning.learner import Learner
 from rigid.learning.personalisation import (
     Partner,
     PersonalisationSettings,
@@ -199,13 +197,9 @@ def train_robust_gt(
         else continue_robot(task, privileged, training, lesson.robot, seed)
     )
 
-    def after(progress: Progress, learner: Learner) -> None:
-        checkpoint.keep(progress.iteration + 1, learner)
-        report(progress)
-
     learner = personalise(
         task, privileged, _partners(lesson, settings), training,
-        seed=seed, start=checkpoint.resume(fresh), report=after,
+        seed=seed, start=checkpoint.resume(fresh), report=checkpoint.keeping(report),
     )  # fmt: skip
     robot = GaussianPolicy(learner.policy, memory=training.memory)
     store_robot(

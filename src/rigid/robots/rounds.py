@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
+from functools import partial
 from pathlib import Path
 
 from rigid.compute.listening import Listener
@@ -72,15 +73,15 @@ def train_in_rounds(
     refuse_finished(out)
     open_training(out, between)
     human = str(load_frontier(run).data["human"])
+    teach = partial(
+        train_robust_gt, settings=settings, seed=seed, canonical_episodes=canonical_episodes
+    )
     for name in between:
         made, searched = out / name / "robot", out / name / "frontier"
         lesson = take_lesson(runs, settings, robot=robot)
         if not (made / CARD_FILE).exists():
             with training(name) as report:
-                train_robust_gt(
-                    lesson, settings, seed=seed, out=made,
-                    canonical_episodes=canonical_episodes, report=report,
-                )  # fmt: skip
+                teach(lesson, out=made, report=report)
         with searching(name) as listener:
             measure_robot(
                 Subject(lesson.task, str(made), human), preset, out=searched,
@@ -90,8 +91,5 @@ def train_in_rounds(
         robot = None  # From here on it is where it was measured.
     lesson = take_lesson(runs, settings, robot=robot)
     with training(f"round {rounds}") as report:
-        train_robust_gt(
-            lesson, settings, seed=seed, out=out, canonical_episodes=canonical_episodes,
-            report=report, beside=between,
-        )  # fmt: skip
+        teach(lesson, out=out, report=report, beside=between)
     return runs

@@ -66,6 +66,15 @@ class Checkpoint:
         if done % _CHECKPOINT_EVERY == 0:
             save_tree(self.path, (jnp.asarray(done), self._fingerprint, learner))
 
+    def keeping(self, report: Report) -> Callable[[Progress, Any], None]:
+        """What a training calls after every iteration: keeps the learner, then reports."""
+
+        def after(progress: Progress, learner: Any) -> None:
+            self.keep(progress.iteration + 1, learner)
+            report(progress)
+
+        return after
+
     def resume(self, fresh: _Learner) -> tuple[_Learner, int]:
         """What is there, and how many iterations it has behind it; else `fresh` and 0.
 

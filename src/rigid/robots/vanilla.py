@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rigid.learning.cooptimisation import Progress
-from rigid.learning.learner import Learner
 from rigid.learning.personalisation import (
     Partner,
     PersonalisationSettings,
@@ -52,12 +50,14 @@ def train_vanilla(
     checkpoint = Checkpoint(out, task, made_by)
     start = checkpoint.resume(start_robot(task, privileged, settings, seed))
 
-    def after(progress: Progress, learner: Learner) -> None:
-        checkpoint.keep(progress.iteration + 1, learner)
-        report(progress)
-
     learner = personalise(
-        task, privileged, [Partner(human, expert)], settings, seed=seed, start=start, report=after
+        task,
+        privileged,
+        [Partner(human, expert)],
+        settings,
+        seed=seed,
+        start=start,
+        report=checkpoint.keeping(report),
     )
     robot = GaussianPolicy(learner.policy, memory=settings.memory)
     store_robot(
