@@ -14,6 +14,7 @@ from benchmarks.paper.drawing import draw_frontiers, draw_pairs
 from benchmarks.paper.failing import failure_rows, keep_failures
 from benchmarks.paper.measuring import Measuring
 from benchmarks.paper.motions import motion_of
+from benchmarks.paper.pages import write_pages
 from benchmarks.paper.places import Places
 from benchmarks.paper.plan import RECIPES, Plan
 from benchmarks.paper.tables import (
@@ -65,6 +66,8 @@ def write_all(plan: Plan, places: Places, measuring: Measuring) -> None:
         draw_frontiers(results / "frontiers", recipes)
     if isinstance(task, ItchScratching):
         _draw_pairs(plan, places, task)
+    if recipes:
+        write_pages(places, recipes)
     text = account(plan, places, tables)
     write_atomically(results / "README.md", text.encode())
 

@@ -67,7 +67,9 @@ class Row:
 def numbers_of(frontier: Frontier, level: float = HEADLINE_LEVEL) -> dict[str, Number]:
     """The numbers that robots are compared by, seed by seed, recomputed from the points.
 
-    `worst_at`, `hull_at`, `auc_natural` and `auc`, in this order. `hull_at` is no headline number
+    `worst_at`, `hull_at`, `auc_natural`, `auc` and `auc_staircase`, in this order. `auc_staircase`
+    sees what lies under the hull: where plain sabotage and canonical play alone span it, the hull
+    shows nothing of the adversaries between them. `hull_at` is no headline number
     but the steadier one of a difference. It is the height of the hull at the level of `worst_at`:
     how bad a natural motion gets when the human may mix two ways of moving from episode to episode.
     No threshold cuts it, while one adversary just above the level with one robot and just below it
@@ -91,6 +93,9 @@ def numbers_of(frontier: Frontier, level: float = HEADLINE_LEVEL) -> dict[str, N
             ),
             "auc_natural": Number({str(s): auc_natural(p, anchor) for s, p in by_seed.items()}),
             "auc": Number({str(s): area_under_frontier(p, anchor) for s, p in by_seed.items()}),
+            "auc_staircase": Number(
+                {str(s): area_under_frontier(p, anchor, "staircase") for s, p in by_seed.items()}
+            ),
         }
     except ValueError as error:
         raise UserError(f"{frontier.directory}/frontier.json: {error}: measure again") from None

@@ -19,8 +19,9 @@ from rigid.frontier.crossed import crossed_interval
 from rigid.frontier.intervals import Interval
 from rigid.frontier.result import Frontier
 
-NUMBERS = ("worst_at", "hull_at", "auc_natural", "auc")
-"""In the order of `numbers_of`; the headline numbers and the steadier companion of the first."""
+NUMBERS = ("worst_at", "hull_at", "auc_natural", "auc", "auc_staircase")
+"""In the order of `numbers_of`: the headline numbers, the steadier companion of the first, and the
+area that sees under the hull."""
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,8 @@ def keep(places, name, seed, heights, **options):
     place.mkdir(parents=True)
     data = dict(frontier(heights, **options).data)
     (place / "frontier.json").write_text(json_text(data))
+    settings = {"schema": 1, "identity": {}, "seeds": [], "provenance": {"versions": {}}}
+    (place / "settings.json").write_text(json_text(settings))
 
 
 def played(robot, robot_seed, human_seed, success, human="human"):

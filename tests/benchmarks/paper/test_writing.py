@@ -17,7 +17,7 @@ def test_tables_figures_and_account_are_written_from_what_stands_and_again_alike
     write_all(PLAN, places, measuring)
     tables = ("table", "differences", "levels", "floors", "natural", "unseen")
     names = {*(f"{name}.csv" for name in tables), "table.tex", "README.md"}
-    names |= {"frontiers.svg", "frontiers.pdf"}
+    names |= {"frontiers.svg", "frontiers.pdf", "comparison.html", "figures.html"}
     assert names <= {path.name for path in places.results.iterdir()}
     before = {name: (places.results / name).read_bytes() for name in names}
     write_all(PLAN, places, measuring)
