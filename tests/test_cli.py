@@ -12,13 +12,18 @@ from rigid import cli
 from rigid.cli import run
 from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
+from rigid.commands.calibrating import CalibrateCommand
 from rigid.commands.comparing import CompareCommand
+from rigid.commands.data import CheckCommand, ImportCommand, ShowCommand
+from rigid.commands.data import ExportCommand as ExportDataCommand
+from rigid.commands.doctoring import DoctorCommand
 from rigid.commands.exporting import ExportCommand
 from rigid.commands.gating import GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.pairing import PairsCommand
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
+from rigid.commands.training_clone import CloneCommand
 from rigid.commands.training_palm import PalmCommand
 from rigid.commands.training_robots import CoOptimizeCommand, GleaveCommand, VanillaCommand
 from rigid.commands.training_robust import RobustCommand
@@ -34,7 +39,12 @@ COMMANDS = {
     "train gleave": GleaveCommand,
     "train palm": PalmCommand,
     "train robust-gt": RobustCommand,
+    "train clone": CloneCommand,
     "record": RecordCommand,
+    "data import": ImportCommand,
+    "data show": ShowCommand,
+    "data check": CheckCommand,
+    "data export": ExportDataCommand,
     "evaluate": EvaluateCommand,
     "referee": RefereeCommand,
     "verify": VerifyCommand,
@@ -44,10 +54,12 @@ COMMANDS = {
     "pairs": PairsCommand,
     "export": ExportCommand,
     "bench": BenchCommand,
+    "doctor": DoctorCommand,
+    "calibrate": CalibrateCommand,
 }
 
-POSITIONAL = {"directory": "PATH ", "directories": "[[PATH ", "runs": "DIR… "}
-RENAMED = {"run_": "from"}
+POSITIONAL = {"directory": "PATH ", "directories": "[[PATH ", "runs": "DIR… ", "file": "PATH "}
+RENAMED = {"run_": "from", "source": "from", "map_": "map"}
 
 
 @pytest.fixture
@@ -95,13 +107,20 @@ def test_help_names_every_option_with_its_default(name, help_of):
         required = field.default is dataclasses.MISSING
         values = field.default if isinstance(field.default, tuple) else (field.default,)
         default = " ".join(map(str, values))
-        assert ("(required)" if required else f"(default: {default})") in said
+        shown = f"(default: {default})" if default else "(default: "  # Nothing is said in words.
+        assert ("(required)" if required else shown) in said
 
 
 def test_help_of_train_lists_the_recipes_with_examples(help_of):
     text = help_of("train")
     assert "rigid train co-optimize --seed" in text
-    for recipe in ("vanilla --pair", "gleave --pair", "palm --pair", "robust-gt --from"):
+    for recipe in (
+        "vanilla --pair",
+        "gleave --pair",
+        "palm --pair",
+        "robust-gt --from",
+        "clone --canonical",
+    ):
         assert f"rigid train {recipe}" in text
 
 

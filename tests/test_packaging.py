@@ -86,7 +86,7 @@ def third_party_imports() -> dict[str, str]:
 
 def test_src_imports_nothing_that_users_were_not_told_to_install():
     provided = importlib.metadata.packages_distributions()
-    extras = ("onnx", "ray", "sb3", "video")
+    extras = ("minari", "onnx", "ray", "sb3", "video")
     allowed = RUN_TIME.union(*(EXTRAS[name] for name in extras))
     undeclared = {
         module: file

@@ -33,7 +33,7 @@ from benchmarks.physics.plan import (
 from benchmarks.physics.tables import Row, part_name
 from benchmarks.physics.verdicts import broken, judged, remedy, rows_of, worst
 from rigid.files import write_atomically
-from rigid.tasks.itch_scratching.scene import CONTACT_TIME
+from rigid.tasks.physics.scene import CONTACT_TIME
 
 _RESULTS = {"return": "return", "success": "success", "counted": "counted contacts"}
 _TEMPLATE = Path(__file__).with_name("account.md")

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
-from rigid.tasks.itch_scratching.replay import FINE_STEP
 from rigid.tasks.itch_scratching.task import RETURN_RANGE
-from rigid.tasks.itch_scratching.world import MAX_PENETRATION
+from rigid.tasks.physics.again import FINE_STEP
+from rigid.tasks.physics.stepping import MAX_PENETRATION
 
 _CONTROL = 0.1
 """A control step [s] (the original); every setting fills one."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from rigid.frontier.largest_jump import largest_jump
     from rigid.frontier.result import Frontier, load_frontier
     from rigid.policies.loading import load_policy
+    from rigid.policies.opening import Opening
     from rigid.policies.protocol import Policy
     from rigid.tasks.protocol import Task
     from rigid.tasks.registry import make_task
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = [
     "CanonicalEpisodes",
     "Frontier",
+    "Opening",
     "Policy",
     "Task",
     "UserError",
@@ -44,6 +46,7 @@ __all__ = [
 _HOMES = {
     "CanonicalEpisodes": "rigid.data.episodes",
     "Frontier": "rigid.frontier.result",
+    "Opening": "rigid.policies.opening",
     "Policy": "rigid.policies.protocol",
     "Task": "rigid.tasks.protocol",
     "area_under_frontier": "rigid.frontier.curve",

@@ -8,10 +8,12 @@ from pathlib import Path
 from rigid.compute.executors import Executor, find_executor
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
+from rigid.compute.return_range import find_return_range
 from rigid.compute.subject import Subject
 from rigid.frontier.result import Frontier
 from rigid.naturalness.choice import DEFAULT_MEASURE
 from rigid.naturalness.features import DEFAULT
+from rigid.policies.opening import SAFE, Opening
 from rigid.presets import Preset, find_preset
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import make_task
@@ -30,7 +32,9 @@ def measure(
     features: str = DEFAULT,
     human: str = "builtin:synthetic-human",
     canonical: str | Path | None = None,
+    return_range: str | Path | Sequence[float] | None = None,
     executor: str | Executor = "local",
+    opening: Opening = SAFE,
     listener: Listener | None = None,
 ) -> Frontier:
     """Measures the natural-adversarial frontier of a robot.
@@ -50,20 +54,26 @@ def measure(
             separated by commas.
         human: The synthetic human that the robot was trained for.
         canonical: A file of canonical episodes; by default the robot's own.
+        return_range: Returns (worst, best) that map to adversarialness 1 and 0, or a file of `rigid
+            calibrate`; by default the task's own.
         executor: Where the work is done: `local`, on this machine; `ray`, on the Ray that runs on
             this machine or else one that is started; `ray:HOST:PORT`, on a Ray cluster; or an
             `Executor`. The numbers are the same.
+        opening: How files of other libraries are opened; the default trusts none.
         listener: Told of progress.
 
     Raises:
         UserError: Bad input; the message names it and the cure, and nothing was overwritten.
     """
+    played = make_task(task) if isinstance(task, str) else task
     subject = Subject(
-        make_task(task) if isinstance(task, str) else task,
+        played,
         robot,
         human,
         None if canonical is None else str(canonical),
         features,
+        opening,
+        find_return_range(return_range, played),
     )
     return measure_robot(
         subject,

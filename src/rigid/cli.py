@@ -18,7 +18,10 @@ import tyro
 
 from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
+from rigid.commands.calibrating import CalibrateCommand
 from rigid.commands.comparing import CompareCommand
+from rigid.commands.data import DataCommand
+from rigid.commands.doctoring import DoctorCommand
 from rigid.commands.exporting import ExportCommand
 from rigid.commands.gating import GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
@@ -51,9 +54,12 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "bench": BenchCommand,
     "train": TrainCommand,
     "record": RecordCommand,
+    "data": DataCommand,
     "evaluate": EvaluateCommand,
     "verify": VerifyCommand,
     "referee": RefereeCommand,
+    "doctor": DoctorCommand,
+    "calibrate": CalibrateCommand,
 }
 
 
@@ -73,23 +79,34 @@ def main() -> None:
 def run(arguments: Sequence[str] | None = None) -> int:
     """Runs one command and returns its exit code."""
     fix_xla_threads()
-    config = (
-        tyro.conf.OmitSubcommandPrefixes,
-        tyro.conf.OmitArgPrefixes,
-        tyro.conf.FlagCreatePairsOff,
-    )
-    given = list(sys.argv[1:] if arguments is None else arguments)
-    kinds = _kinds(with_examples=given[:1] not in (["--help"], ["-h"]))
-    command: _Runs = tyro.cli(kinds, args=given, prog="rigid", description=__doc__, config=config)
+    command = parse(sys.argv[1:] if arguments is None else arguments)
     try:
         return command.run()
     except UserError as error:
-        print(f"rigid: {printable(str(error))}", file=sys.stderr)
+        lines = [printable(line) for line in str(error).split("\n")]
+        print("\n".join(["rigid: " + lines[0], *lines[1:]]), file=sys.stderr)
         return error.exit_code
     except KeyboardInterrupt as interrupt:
         how = str(interrupt) or "the same command goes on"
         print(f"\nrigid: interrupted; {how}", file=sys.stderr)
         return INTERRUPTED
+
+
+def parse(arguments: Sequence[str]) -> _Runs:
+    """The command of a command line, with its options; nothing is run.
+
+    Raises:
+        SystemExit: There is no such command or option (code 2), or help was asked for (0).
+    """
+    config = (
+        tyro.conf.OmitSubcommandPrefixes,
+        tyro.conf.OmitArgPrefixes,
+        tyro.conf.FlagCreatePairsOff,
+    )
+    given = list(arguments)
+    kinds = _kinds(with_examples=given[:1] not in (["--help"], ["-h"]))
+    command: _Runs = tyro.cli(kinds, args=given, prog="rigid", description=__doc__, config=config)
+    return command
 
 
 def _kinds(*, with_examples: bool) -> Any:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import av
 import numpy as np
 import pytest
@@ -89,14 +91,16 @@ def test_keypoints_of_the_worst_in_each_band_are_drawn(rigid, run, tmp_path):
 
 
 REFUSED = {
-    "name what to write: --video FILE or --keypoints FILE": [],
+    "name what to write: --video FILE, --keypoints FILE, --onnx FILE or --serve FILE": [],
     "films end in .mp4 or .webp, not in .gif": ["--video", "a.gif"],
     "figures end in .pdf, .svg or .png": ["--keypoints", "a.jpg"],
     "--size '9x9': write width x height, as 800x600": ["--video", "a.webp", "--size", "9x9"],
     "--fps is 0, but must be from 1 to 240": ["--video", "a.webp", "--fps", "0"],
     "--speed is 0.0, but must be more than 0": ["--video", "a.webp", "--speed", "0"],
-    "--robot is for a film without one": ["--video", "a.webp", "--robot", "builtin:vanilla"],
-    "--seed is for a film without one": ["--video", "a.webp", "--seed", "4"],
+    "--robot goes without a run directory": ["--video", "a.webp", "--robot", "builtin:vanilla"],
+    "--seed goes without a run directory": ["--video", "a.webp", "--seed", "4"],
+    "--onnx goes without a run directory": ["--onnx", "a.onnx"],
+    "--trust goes without a run directory": ["--video", "a.webp", "--trust"],
     "--point 's9' is none of this run's": ["--video", "a.webp", "--point", "s9"],
 }
 
@@ -117,6 +121,19 @@ REFUSED_WITHOUT = {
     "--point needs a run directory": ["--video", "a.webp", *PAIR, "--point", "s0-r1-l0"],
     "--keypoints needs a run directory": ["--keypoints", "a.pdf", *PAIR],
     "--seed is -1, but must be at least 0": ["--video", "a.webp", *PAIR, "--seed=-1"],
+    "name a run directory, or --robot for an episode of any pair or --onnx": ["--onnx", "a.onnx"],
+    "models end in .onnx": ["--onnx", "a.bin", *PAIR],
+    "--agent is for --onnx FILE": ["--video", "a.webp", *PAIR, "--agent", "robot"],
+    "human 'builtin:vanilla' is unknown for task": ["--onnx", "a.onnx", *PAIR, "--agent", "human"],
+    "policy.json does not exist": ["--onnx", "a.onnx", "--robot", "nowhere"],
+    "is made in memory and has no weights": [
+        "--onnx",
+        "a.onnx",
+        "--robot",
+        "builtin:tracker",
+        "--task",
+        "analytic/hand-tracking",
+    ],
     "has no picture": ["--video", "a.webp", *PAIR, "--task", "analytic/hand-tracking"],
 }
 
@@ -137,3 +154,28 @@ def test_a_place_that_cannot_be_written_is_refused_before_any_work(rigid, run, o
     assert code == 2
     assert f"cannot write to {name} (" in err
     assert err.endswith(f"choose another place with {option}\n")
+
+
+@pytest.mark.parametrize("agent", ["robot", "human"])
+def test_a_native_policy_becomes_onnx_that_acts_the_same(rigid, toys, tmp_path, agent):
+    out = tmp_path / "deep" / "policy.onnx"
+    task = ("--task", "toy-reach")
+    code, text, err = rigid("export", "--robot", toys / agent, "--onnx", out, *task)
+    assert (code, err) == (0, "")
+    sizes = {"robot": 2, "human": 3}[agent]
+    named = f"{toys / agent}, {agent} of toy-reach: {sizes} observations, 1 actions: {out}\n"
+    assert text == named
+    again = {"robot": toys / "robot", "human": toys / "human", agent: out}
+    found = []
+    for robot, human in ((toys / "robot", toys / "human"), (again["robot"], again["human"])):
+        players = ("--robot", robot, "--human", human)
+        found.append(rigid("evaluate", *task, *players, "--episodes", 3, "--json")[1])
+    mine, theirs = (json.loads(text)["return"] for text in found)
+    assert (mine == pytest.approx(theirs, abs=1e-4)) == (agent == "robot")  # Humans lose noise.
+
+
+def test_a_policy_of_another_ones_task_needs_its_name(rigid, toys, tmp_path):
+    out = tmp_path / "policy.onnx"
+    code, _, err = rigid("export", "--robot", toys / "robot", "--onnx", out)
+    assert code == 2
+    assert "was trained for 'toy-reach', which is none of RIGID's own tasks: name it with" in err

@@ -179,7 +179,7 @@ def fitted(toys, monkeypatch):
 
     def fit(out, *, seconds=budget.FIXED_SECONDS + half, seeds=None, lambdas=None):
         options = FrontierCommand(out=out, task="toy-reach", preset="tiny", seeds=seeds)
-        return measuring._fitted(TINY, options, seconds, lambdas)
+        return measuring._fitted(TINY, options, options.open_task(), seconds, lambdas)
 
     return fit
 

@@ -58,7 +58,11 @@ def test_evaluate_prints_what_python_gives(rigid, toys, toy_options):
     code, out, err = rigid("evaluate", *toy_options, "--episodes", 5, "--seed", 2, "--json")
     assert (code, err) == (0, "")
     players = (load_native(toys / agent).policy for agent in ("robot", "human"))
-    assert json.loads(out) == evaluate(FilmedReach(), *players, episodes=5, seed=2)
+    found = json.loads(out)
+    ends = list(FilmedReach().return_range)
+    assert (found.pop("return_range"), found.pop("range_source")) == (ends, "task")
+    assert found.pop("range_file") is None
+    assert found == evaluate(FilmedReach(), *players, episodes=5, seed=2)
 
 
 def test_evaluate_prints_a_line_for_each_number(rigid, toy_options):
@@ -68,6 +72,51 @@ def test_evaluate_prints_a_line_for_each_number(rigid, toy_options):
     assert lines["episodes"] == "3"
     assert lines["outcomes"] == "helped 0.000, unhelped 1.000"
     assert lines["return"] == "-10.000"
+
+
+PASSIVE = ("--human", "builtin:passive", "--episodes", 3)
+"""Episodes that return −10 with the toy robot."""
+
+
+@pytest.mark.parametrize("expected", ["-10±0.5", "-9+-2", "-10+-0"])
+def test_evaluate_exits_with_0_when_the_return_is_the_expected_one(rigid, toy_options, expected):
+    code, out, err = rigid("evaluate", *toy_options, *PASSIVE, f"--expect-return={expected}")
+    assert (code, err) == (0, "")
+    assert "ok yes" in out
+
+
+def test_evaluate_exits_with_1_when_the_return_is_another_one(rigid, toy_options):
+    options = (*toy_options, *PASSIVE, "--expect-return", "431±15", "--json")
+    code, out, err = rigid("evaluate", *options)
+    assert code == 1
+    verdict = {"mean": 431.0, "tolerance": 15.0, "standard_error": 0.0, "ok": False}
+    assert json.loads(out)["expected_return"] == verdict
+    assert err == (
+        "rigid: the mean return -10.000 (standard error 0.000, 3 episodes) lies outside of "
+        "431 ± 15: another robot, task, human or normaliser than you expect?\n"
+    )
+
+
+@pytest.mark.parametrize("text", ["431", "431±", "±3", "nan±1", "1±-2", "1±inf", "a±b"])
+def test_an_expected_return_without_sense_is_refused(rigid, toy_options, text):
+    code, _, err = rigid("evaluate", *toy_options, f"--expect-return={text}")
+    assert code == 2
+    assert f"rigid: --expect-return '{text}'" in err
+
+
+def test_a_robot_of_another_library_plays_and_stumbles_without_a_traceback(
+    rigid, toy_options, tmp_path
+):
+    from tests.policies.graphs import chain, linear, save
+
+    task, human = toy_options[:2], toy_options[4:]
+    good, bad = save(tmp_path / "arm.onnx", linear()), save(tmp_path / "bad.onnx", chain("Log"))
+    code, out, _ = rigid("evaluate", *task, "--robot", good, *human, "--episodes", 2)
+    assert code == 0
+    assert "return" in out
+    code, out, err = rigid("evaluate", *task, "--robot", bad, *human, "--episodes", 2)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"rigid: robot '{bad}', step 1: answers actions that are not finite")
 
 
 @pytest.mark.parametrize("command", [["evaluate"], ["record", "--out", "c.npz"]])

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rigid.compute.canonical import divide_recorded
+from rigid.compute.canonical import chosen_features, divide_recorded
+from rigid.data.about import About, EpisodeNote
 from rigid.data.episodes import CanonicalEpisodes
 from rigid.errors import UserError
+from rigid.naturalness.features import Features
 
 FILE = Path("people.npz")
 
@@ -53,8 +55,17 @@ def test_eleven_episodes_are_too_few():
         divided(11)
 
 
-def test_episodes_of_unknown_return_are_refused():
-    people = recorded(20)
-    people = replace(people, returns=np.where(people.returns == 3, np.nan, people.returns))
-    with pytest.raises(UserError, match=r"people\.npz has episodes of unknown return"):
-        divide_recorded(people, search=40, folds=4, where=FILE)
+def test_what_is_told_of_an_episode_stays_with_it():
+    notes = tuple(EpisodeNote(name=str(i)) for i in range(24))
+    people = replace(recorded(24), about=About(licence="CC0-1.0", episodes=notes))
+    found = divide_recorded(people, search=40, folds=4, where=FILE).referee
+    assert [float(note.name) for note in found.about.episodes] == found.returns.tolist()
+    assert found.about.licence == "CC0-1.0"
+
+
+def test_features_by_name_need_no_observations():
+    people = recorded(12)
+    chosen = Features("b", ("b",), (1,))
+    assert chosen_features(chosen, people, FILE).shape == (12, 5, 1)
+    with pytest.raises(UserError, match="holds no observations and actions, so features"):
+        chosen_features(Features("observation", ("x",), (2,)), people, FILE)

@@ -100,3 +100,20 @@ def test_a_negative_draw_is_refused():
     subject = Subject(FilmedReach(), "builtin:none", canonical_draw=-1)
     with pytest.raises(UserError, match=r"canonical_draw is -1, but must be 0 or more"):
         prepare(subject, TINY, settings_for(TINY))
+
+
+def test_where_nobody_recorded_returns_the_human_says_what_canonical_behaviour_returns(
+    base, pair, tmp_path
+):
+    robot, human = (str(base / "pair" / agent) for agent in ("robot", "human"))
+    found = record(FilmedReach(), *pair, episodes=12, seed=5, provenance={})
+    unknown = np.full(12, np.nan, np.float32)
+    motion = replace(found, source="recorded", observations=None, actions=None, returns=unknown)
+    blocks = []
+    for name, episodes in (("motion", motion), ("told", replace(motion, returns=found.returns))):
+        save_episodes(tmp_path / f"{name}.npz", episodes)
+        subject = Subject(FilmedReach(), robot, human, canonical=str(tmp_path / f"{name}.npz"))
+        blocks.append(prepare(subject, TINY, settings_for(TINY)).canonical)
+    assert [block["return_source"] for block in blocks] == ["human", "episodes"]
+    # Both are means of that human with that robot, over other episodes.
+    assert blocks[0]["return"] == pytest.approx(blocks[1]["return"], rel=0.2)

@@ -41,6 +41,15 @@ def test_a_task_without_features_is_seen_by_observation_and_action():
     assert choose_features("default", Silent()).label == "observation+action"
 
 
+def test_a_task_that_declares_observation_and_action_itself_is_asked_for_them():
+    class Declaring(ToyReach):
+        feature_names = ("robot", "hand", "goal", "action_0")
+
+    assert choose_features("observation", Declaring()).columns == (0, 1, 2)
+    assert choose_features("observation+action", Declaring()).columns == (0, 1, 2, 3)
+    assert choose_features("observation", TASK).columns == (2, 3, 4)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -9,6 +12,7 @@ from rigid.errors import UserError
 from rigid.policies import loading
 from rigid.policies.loading import builtin_names, load_policy, policy_hash
 from rigid.policies.native import save_policy
+from rigid.policies.opening import NAMED_BY_FILE, Opening
 from rigid.policies.passive import PassivePolicy
 from tests.toys import ToyReach, untrained
 
@@ -94,18 +98,45 @@ def test_the_passive_human_fits_every_task_and_does_nothing():
             "vanilla", "robot", "is no directory; did you mean 'builtin:vanilla'", id="no-prefix"
         ),
         pytest.param(
-            "runs/v1.2", "robot", "'runs/v1.2' is no directory: give builtin:NAME or", id="no-file"
+            "runs/v1.2",
+            "robot",
+            "'runs/v1.2' is no directory: give builtin:NAME, a native policy directory, "
+            "FILE.onnx, sb3:FILE.zip, .* or exec:COMMAND$",
+            id="no-file",
         ),
         pytest.param(
-            "arm.onnx", "robot", "of kind 'onnx', but this version takes builtin:NAME", id="onnx"
+            "tf:arm.pb",
+            "human",
+            "human 'tf:arm.pb' is of kind 'tf', which is unknown: give builtin:NAME",
+            id="no-kind",
         ),
-        pytest.param("sb3:arm.zip", "robot", "of kind 'sb3', but this version takes", id="sb3"),
-        pytest.param("exec:./run", "human", "human 'exec:./run' is of kind 'exec'", id="exec"),
+        pytest.param(
+            "python: ", "robot", "names nothing: write python:MODULE:FACTORY", id="no-place"
+        ),
     ],
 )
 def test_an_unknown_policy_is_refused_with_what_is_known(spec, agent, message):
     with pytest.raises(UserError, match=message):
         load_policy(spec, task=TASK, agent=agent)
+
+
+@pytest.mark.parametrize(
+    "spec", ["python:os:getcwd", "exec:touch mark", "sb3:arm.zip", "torchscript:arm.pt"]
+)
+def test_a_name_in_a_file_is_never_taken_for_a_command(spec, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(UserError, match=f"robot '{spec}' would run code that a file names: name"):
+        load_policy(spec, task=TASK, agent="robot", opening=replace(NAMED_BY_FILE, trust=True))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("options", "name"), [({"frames": 4}, "frames"), ({"vecnormalize": Path("v.pkl")}, "vecnorm")]
+)
+def test_what_only_sb3_robots_take_is_not_ignored_for_others(tmp_path, options, name):
+    store(tmp_path)
+    with pytest.raises(UserError, match=rf"--{name}\w* is for sb3:FILE\.zip, but the robot is"):
+        load_policy(str(tmp_path), task=TASK, agent="robot", opening=Opening(**options))
 
 
 def test_a_task_without_bundled_robots_says_so():

@@ -295,8 +295,23 @@ def test_one_seed_says_that_it_has_no_interval_and_absent_replays_are_said(
     with visit(build_report(single, tmp_path / "report.html")) as page:
         texts = page.locator(".headline .interval").all_inner_texts()
         assert texts[:3] == ["one seed: no interval"] * 3
-        assert page.get_by_text("Replays were not stored with this frontier").is_visible()
+        assert page.get_by_text("knows nothing to draw of this task").is_visible()
         assert page.locator("canvas").count() == 0
+
+
+def test_a_task_with_outcomes_of_its_own_and_without_forces_shows_what_it_has(
+    visit, sample_payload, tmp_path
+):
+    foreign = sample_payload(seeds=1, replays=0) | {"replays": None, "scene": None}
+    for point in foreign["frontier"]["points"]:
+        point |= {"outcomes": {"ended_early": 0.25, "ran its time": 0.75}}
+        point |= {"peak_force": None, "impulse": None, "success": None}
+    with visit(build_report(foreign, tmp_path / "report.html")) as page:
+        shown = page.locator(".details").inner_text()
+        assert "ended early\n25" in shown
+        assert "ran its time\n75" in shown
+        assert "force" not in shown
+        assert page.get_by_text("This task has outcomes of its own").is_visible()
 
 
 def test_frontier_without_points_is_shown_as_unknown(visit, tmp_path):

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { count, duration, fixed, intervalText, lambdaText, percent } from "../src/base/format.js";
+import { count, duration, fixed, general, intervalText, lambdaText, percent } from "../src/base/format.js";
 import { lambdaRange, lambdaShare } from "../src/chart/palette.js";
 import { lambdaAxis, roundsOf } from "../src/chart/sweep.js";
-import { levelText } from "../src/report/words.js";
+import { levelText, rangeSource } from "../src/report/words.js";
 
 test("unknown is a dash, never zero", () => {
   for (const unknown of [null, undefined, NaN, Infinity]) assert.equal(fixed(unknown), "—");
@@ -16,6 +16,20 @@ test("unknown is a dash, never zero", () => {
 test("numbers have a real minus, and minus zero none", () => {
   assert.equal(fixed(-32.16, 1), "−32.2");
   assert.equal(fixed(-0.001), "0.00");
+});
+
+test("numbers of any size are short", () => {
+  const texts = [-270, 450, -2.5, 0.025, 0, 1.25e7, null].map(general);
+  assert.deepEqual(texts, ["−270", "450", "−2.5", "0.025", "0", "1.3·10⁷", "—"]);
+});
+
+test("the source of the range is spelt out, with the file of a calibrated one", () => {
+  assert.equal(rangeSource({ range_source: "task" }), "the task's range");
+  assert.equal(rangeSource({ range_source: "option" }), "a range given by the user");
+  const file = { name: "range.json", sha256: "0123456789abcdef" };
+  assert.equal(rangeSource({ range_source: "calibrated", range_file: file }), "calibrated range, range.json 01234567");
+  assert.equal(rangeSource({ range_source: 7 }), "range: 7");
+  assert.equal(rangeSource({}), "range: source unknown");
 });
 
 test("λ is short over its whole range", () => {

@@ -71,6 +71,8 @@ class CompareCommand:
     """Budget of --robots: demo, standard or paper."""
     seeds: Annotated[str | None, _shown_as(metavar="SEEDS")] = None
     """Search seeds of --robots, as 0,1,2 or 0..9; by default the preset's."""
+    return_range: Annotated[str | None, _shown_as(metavar="LOW,HIGH|FILE")] = None
+    """Returns that map to adversarialness 1 and 0 of --robots, or a file of rigid calibrate."""
     executor: Annotated[str, _shown_as(metavar="WHERE")] = "local"
     """Where --robots are measured: local, ray, or ray:HOST:PORT for a Ray cluster."""
     json: bool = False
@@ -157,11 +159,12 @@ class CompareCommand:
         if self.out is not None:
             measure_fleet(
                 self.robots, out=self.out, task=self.task, human=self.human, preset=self.preset,
-                seeds=self.seeds, executor=self.executor,
+                seeds=self.seeds, executor=self.executor, return_range=self.return_range,
             )  # fmt: skip
 
     def _refuse_measuring(self) -> None:
         """Refuses what would have no effect without `--robots`."""
-        for option in ("out", "task", "human", "preset", "seeds", "executor"):
-            if getattr(self, option) != getattr(CompareCommand, option):
+        for name in ("out", "task", "human", "preset", "seeds", "return_range", "executor"):
+            if getattr(self, name) != getattr(CompareCommand, name):
+                option = name.replace("_", "-")
                 raise UserError(f"--{option} is for --robots: name the robots to be measured")

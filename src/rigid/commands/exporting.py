@@ -1,4 +1,4 @@
-"""`rigid export`: films of episodes, and the figure of keypoints."""
+"""`rigid export`: films of episodes, the figure of keypoints, and policies as ONNX."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import tyro
 
+from rigid.commands.naming import OpeningOptions
+from rigid.commands.onnx_exporting import write_onnx
 from rigid.commands.parsing import at_least, printable
+from rigid.commands.serve_exporting import write_serve
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
 
 _shown_as = tyro.conf.arg
 _OF_RUNS = ("point", "episode", "side_by_side", "keypoints")
-_OF_PAIRS = ("robot", "human", "seed")
+_OF_PAIRS = ("robot", "human", "seed", "onnx", "agent", "trust", "vecnormalize", "frames")
 _FINEST = 240
 """Pictures per second; more is no film. Ours."""
 _SMALLEST, _LARGEST = 64, 4096
@@ -28,8 +31,8 @@ _SMALLEST, _LARGEST = 64, 4096
 
 
 @dataclass(frozen=True)
-class ExportCommand:
-    """Write a film of an episode, or a figure of how keypoints moved in failures.
+class ExportCommand(OpeningOptions):
+    """Write a film of an episode, a figure of how keypoints moved, or a policy as ONNX.
 
     A run is shown by the most adversarial of its points at naturalness 0.8 or more, from 0.4 to
     0.8, and below 0.4: a figure by the worst episodes of all three, a film by an episode of the
@@ -42,6 +45,9 @@ class ExportCommand:
       rigid export runs/vanilla --video median.webp --point s0-r1-l3 --episode median
       rigid export --robot my/robot --human builtin:passive --seed 3 --video episode.mp4
       rigid export runs/vanilla --keypoints failures.pdf
+      rigid export --robot builtin:vanilla --onnx vanilla.onnx
+      rigid export --robot runs/vanilla/adversaries/s0-r1-l3 --onnx adversary.onnx
+      rigid export --serve rigid_serve.py
     """
 
     directory: Annotated[Path | None, tyro.conf.Positional, _shown_as(metavar="PATH")] = None
@@ -50,6 +56,13 @@ class ExportCommand:
     """Film to write: .mp4, which needs the extra `video`, or .webp."""
     keypoints: Annotated[Path | None, _shown_as(metavar="FILE")] = None
     """Figure to write, .pdf, .svg or .png: how keypoints moved in failures of the run."""
+    onnx: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Model to write, .onnx: the native policy that --robot names, with its normaliser inside."""
+    agent: Literal["robot", "human"] | None = None
+    """With --onnx: whose policy it is; by default what its directory says, else the robot's."""
+    serve: Annotated[Path | None, _shown_as(metavar="FILE")] = None
+    """Python file to write, rigid_serve.py: programs of yours that import it play as exec:COMMAND.
+    It goes alone."""
     point: Annotated[str | None, _shown_as(metavar="ID")] = None
     """Whose episode to film, as s0-r1-l3; by default the most natural one of the above."""
     episode: Literal["worst", "median"] = "worst"
@@ -57,9 +70,9 @@ class ExportCommand:
     side_by_side: bool = False
     """Film the synthetic human from the same start beside it."""
     robot: Annotated[str | None, _shown_as(metavar="ROBOT")] = None
-    """Without a run: builtin:NAME or a native policy directory."""
+    """Without a run: as in `rigid evaluate`; with --onnx builtin:NAME or a native directory."""
     human: str = "builtin:synthetic-human"
-    """Without a run: builtin:NAME or a native policy directory."""
+    """Without a run: who plays in the film."""
     seed: int = 0
     """Without a run: start and noise of the episode come from it."""
     task: Annotated[str | None, _shown_as(metavar="TASK")] = None
@@ -75,10 +88,18 @@ class ExportCommand:
         """Writes what was asked for, and says what it shows."""
         from rigid.files import make_room
 
+        if self.serve is not None:
+            if self != ExportCommand(serve=self.serve):
+                raise UserError("--serve FILE goes alone: leave the other options out")
+            write_serve(self.serve)
+            return 0
         self._check_options()
-        for path, option in ((self.video, "--video"), (self.keypoints, "--keypoints")):
+        places = (self.video, "--video"), (self.keypoints, "--keypoints"), (self.onnx, "--onnx")
+        for path, option in places:
             if path is not None:
                 make_room(path, option)
+        if self.onnx is not None and self.robot is not None:
+            write_onnx(self.robot, self.onnx, task=self.task, agent=self.agent)
         if self.video is not None:
             _film(self, self.video)
         if self.keypoints is not None and self.directory is not None:
@@ -87,12 +108,20 @@ class ExportCommand:
 
     def _check_options(self) -> None:
         """Refuses what does not go together."""
-        if self.video is None and self.keypoints is None:
-            raise UserError("name what to write: --video FILE or --keypoints FILE")
+        if self.video is None and self.keypoints is None and self.onnx is None:
+            raise UserError(
+                "name what to write: --video FILE, --keypoints FILE, --onnx FILE or --serve FILE"
+            )
+        if self.agent is not None and self.onnx is None:
+            raise UserError("--agent is for --onnx FILE")
+        if self.onnx is not None and self.onnx.suffix != ".onnx":
+            raise UserError(f"--onnx {self.onnx}: models end in .onnx")
         if self.directory is None and self.robot is None:
-            raise UserError("name a run directory, or --robot for an episode of any pair")
+            raise UserError("name a run directory, or --robot for an episode of any pair or --onnx")
         idle = _OF_RUNS if self.directory is None else _OF_PAIRS
-        reason = "needs a run directory" if self.directory is None else "is for a film without one"
+        reason = (
+            "needs a run directory" if self.directory is None else "goes without a run directory"
+        )
         for option in idle:
             if getattr(self, option) != getattr(ExportCommand, option):
                 raise UserError(f"--{option.replace('_', '-')} {reason}")
@@ -126,7 +155,8 @@ def _episode(options: ExportCommand) -> tuple[Mapping[str, Any], Shown]:
         assert options.robot is not None
         task = make_task(options.task or "itch-scratching")
         scene = sources.scene_of(task)
-        return scene, sources.played(task, options.robot, options.human, options.seed)
+        opening = options.opening()
+        return scene, sources.played(task, options.robot, options.human, options.seed, opening)
     run = sources.open_run(options.directory, options.task)
     if options.point is None:
         point = sources.worst_by_band(run.frontier.points)[0]

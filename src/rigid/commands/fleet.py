@@ -24,6 +24,7 @@ def measure_fleet(
     preset: str,
     seeds: str | None,
     executor: str,
+    return_range: str | None = None,
 ) -> list[Path]:
     """Measures robots into `out`, or goes on where an earlier call stopped.
 
@@ -35,6 +36,7 @@ def measure_fleet(
         preset: Name of the budget.
         seeds: Search seeds as people write them; None for the preset's.
         executor: Where groups run, as people write it.
+        return_range: Range of adversarialness as people write it; None for the task's own.
 
     Returns:
         Their run directories, in the order of `robots`.
@@ -48,17 +50,18 @@ def measure_fleet(
     from rigid.compute.executors import find_executor
     from rigid.compute.measurement import measure_robots
     from rigid.compute.preparation import settings_for
+    from rigid.compute.return_range import find_return_range
     from rigid.compute.robot_run import Order
     from rigid.compute.subject import Subject
     from rigid.presets import find_preset
     from rigid.tasks.registry import make_task
 
     budget, world = find_preset(preset), make_task(task)
-    where = find_executor(executor)
+    where, range_ = find_executor(executor), find_return_range(return_range, world)
     orders = [
         Order(
-            subject=Subject(world, robot, human), preset=budget, settings=settings_for(budget),
-            out=directory, seeds=chosen,
+            subject=Subject(world, robot, human, return_range=range_), preset=budget,
+            settings=settings_for(budget), out=directory, seeds=chosen,
         )
         for robot, directory in zip(robots, directories, strict=True)
     ]  # fmt: skip

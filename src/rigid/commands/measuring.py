@@ -10,18 +10,21 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
+from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_budget, parse_lambdas, parse_seeds
+from rigid.commands.ranging import RangeOptions
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
     from rigid.frontier.result import Frontier
     from rigid.presets import Preset
+    from rigid.tasks.protocol import Task
 
 _shown_as = tyro.conf.arg
 
 
 @dataclass(frozen=True, kw_only=True)
-class FrontierCommand:
+class FrontierCommand(RangeOptions, PairOptions):
     """Measure a robot: find the natural human motions that break it.
 
     Examples:
@@ -29,16 +32,11 @@ class FrontierCommand:
       rigid frontier --robot my/robot --preset paper --seeds 0..2 --out runs/mine
       rigid frontier --robot my/robot --lambdas 0,0.01,1,inf --seeds 0 --out runs/look
       rigid frontier --robot my/robot --executor ray:10.0.0.1:6379 --out runs/mine
+      rigid frontier --robot my/robot --return-range -100,20 --out runs/mine
     """
 
     out: Path
     """Run directory; an interrupted measurement in it goes on."""
-    task: str = "itch-scratching"
-    """Registered task."""
-    robot: str = "builtin:vanilla"
-    """builtin:NAME or a native policy directory."""
-    human: str = "builtin:synthetic-human"
-    """The synthetic human that the robot was trained for."""
     canonical: Annotated[str | None, _shown_as(metavar="FILE")] = None
     """File of canonical episodes; by default the robot's own, or a fresh recording."""
     preset: str = "standard"
@@ -109,6 +107,7 @@ def _measure(options: FrontierCommand) -> int:
     from rigid.commands.progress import TerminalListener
     from rigid.presets import find_preset
 
+    task = options.open_task()
     preset = find_preset(options.preset)
     if seeds is not None:
         preset = replace(preset, seeds=seeds)
@@ -118,15 +117,16 @@ def _measure(options: FrontierCommand) -> int:
                 f"--budget times this machine, not --executor {options.executor}: leave it out, or "
                 "choose --preset and --seeds"
             )
-        preset = _fitted(preset, options, budget, lambdas)
+        preset = _fitted(preset, options, task, budget, lambdas)
     try:
         with TerminalListener(f"{options.robot} · {preset.name}") as listener:
             listener.say(f"preparing {options.robot} on {options.task} (preset {preset.name})")
             frontier = measure(
-                options.task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
+                task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
                 lambdas=lambdas, memory=options.memory, search_measure=options.search_measure,
                 features=options.features, human=options.human, canonical=options.canonical,
-                executor=options.executor, listener=listener,
+                executor=options.executor, opening=options.opening(), listener=listener,
+                return_range=options.return_range,
             )  # fmt: skip
             report = options.out / "report.html"
             if not report.exists():
@@ -139,18 +139,20 @@ def _measure(options: FrontierCommand) -> int:
 
 
 def _fitted(
-    preset: Preset, options: FrontierCommand, seconds: float, lambdas: tuple[float, ...] | None
+    preset: Preset,
+    options: FrontierCommand,
+    task: Task,
+    seconds: float,
+    lambdas: tuple[float, ...] | None,
 ) -> Preset:
     """The preset that `--budget` stands for; what was begun keeps its own."""
     from rigid.compute.budget import fit_to, stored_preset, training_speed
     from rigid.compute.run_directory import check_place
-    from rigid.tasks.registry import make_task
 
     stored = stored_preset(options.out, preset)
     if stored is not None:  # Its seeds stay, and those that the user names join them.
         return stored if options.seeds is None else replace(stored, seeds=preset.seeds)
     check_place(options.out)
-    task = make_task(options.task)
     rounds = preset.per_round if lambdas is None else (len(lambdas),)
     fitted = fit_to(
         replace(preset, per_round=rounds), seconds,
@@ -161,6 +163,8 @@ def _fitted(
 
 def headline(frontier: Frontier, report: Path) -> str:
     """What the terminal shows at the end."""
+    from rigid.compute.return_range import spoken_range
+
     data = frontier.data
     worst, natural = data["worst_at_interval"]["0.9"], data["auc_natural_interval"]
     lines = [
@@ -169,6 +173,7 @@ def headline(frontier: Frontier, report: Path) -> str:
         f"  area over [0.8, 1]           {data['auc_natural']:.2f}  {_interval(natural)}",
         f"  AUC                          {data['auc']:.2f}  {_interval(data['auc_interval'])}",
         f"  {len(frontier.points)} adversaries, {_seeds(data)}; lower is better",
+        f"  adversarialness is {spoken_range(data)}",
         "  an estimate at this search power, not a bound",
     ]
     lacking = frontier.lacking_at(0.9)

@@ -81,6 +81,25 @@ def parse_budget(text: str | None, option: str = "--budget") -> float | None:
     return seconds
 
 
+def parse_expected(text: str | None) -> tuple[float, float] | None:
+    """A mean and what it may differ by, as `431±15` or `431+-15`; None stays None.
+
+    Example:
+        >>> parse_expected("-4.5+-0.5")
+        (-4.5, 0.5)
+    """
+    if text is None:
+        return None
+    mean, _, tolerance = text.replace("+-", "±").partition("±")
+    try:
+        numbers = float(mean), float(tolerance)
+    except ValueError:
+        raise UserError(f"--expect-return {text!r}: write it as 431±15 or 431+-15") from None
+    if not (math.isfinite(numbers[0]) and 0 <= numbers[1] < math.inf):
+        raise UserError(f"--expect-return {text!r} must be finite, and its tolerance 0 or more")
+    return numbers
+
+
 def at_least(option: str, value: int, least: int) -> None:
     """Refuses a count that is too small.
 

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import json
+import math
+import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any
 
-from rigid.commands.parsing import at_least
+import tyro
+
+from rigid.commands.naming import PairOptions
+from rigid.commands.parsing import at_least, parse_expected
+from rigid.commands.ranging import RangeOptions
 
 
 @dataclass(frozen=True, kw_only=True)
-class _PairOptions:
-    """Who plays what."""
+class _PlayOptions(PairOptions):
+    """Who plays what, and how often."""
 
-    task: str = "itch-scratching"
-    """Registered task."""
-    robot: str = "builtin:vanilla"
-    """builtin:NAME or a native policy directory."""
-    human: str = "builtin:synthetic-human"
-    """builtin:NAME or a native policy directory."""
     episodes: int = 100
     """How many episodes."""
     seed: int = 0
@@ -26,7 +27,7 @@ class _PairOptions:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RecordCommand(_PairOptions):
+class RecordCommand(_PlayOptions):
     """Record canonical episodes: what natural behaviour with this robot looks like.
 
     Example:
@@ -42,60 +43,101 @@ class RecordCommand(_PairOptions):
         from rigid.data.recording import record
         from rigid.files import make_room, writing_to
         from rigid.policies.loading import load_policy
-        from rigid.tasks.registry import make_task
 
         at_least("--episodes", self.episodes, 1)
         at_least("--seed", self.seed, 0)
         make_room(self.out)
-        task = make_task(self.task)
-        robot = load_policy(self.robot, task=task, agent="robot")
-        human = load_policy(self.human, task=task, agent="human")
+        task, opening = self.open_task(), self.opening()
+        robot = load_policy(self.robot, task=task, agent="robot", opening=opening)
+        human = load_policy(self.human, task=task, agent="human", opening=opening)
         made_by = {"robot": self.robot, "human": self.human}
         found = record(
             task, robot, human, episodes=self.episodes, seed=self.seed, provenance=made_by
         )
         with writing_to(self.out):
             save_episodes(self.out, found)
-        print(f"{len(found)} episodes, success {found.success.mean():.3f}: {self.out}")
+        success = float(found.success.mean())
+        shown = "unknown" if math.isnan(success) else f"{success:.3f}"
+        print(f"{len(found)} episodes, success {shown}: {self.out}")
         return 0
 
 
 @dataclass(frozen=True, kw_only=True)
-class EvaluateCommand(_PairOptions):
+class EvaluateCommand(RangeOptions, _PlayOptions):
     """Play a robot with a human and print return, success, outcomes and forces.
 
-    Example:
+    Examples:
       rigid evaluate --robot builtin:vanilla --human builtin:passive --episodes 500
+      rigid evaluate --robot arm.onnx --expect-return 431±15
     """
 
+    expect_return: Annotated[str | None, tyro.conf.arg(metavar="MEAN±TOLERANCE")] = None
+    """Exit 1 unless the mean return lies within the tolerance (± or +-)."""
     json: bool = False
     """Print the result as JSON."""
 
     def run(self) -> int:
         """Plays and prints."""
         from rigid.compute.evaluation import evaluate
+        from rigid.compute.return_range import find_return_range, range_in_force, spoken_range
         from rigid.policies.loading import load_policy
-        from rigid.tasks.registry import make_task
+        from rigid.tasks.views.ranged import with_range
 
+        expected = parse_expected(self.expect_return)
         at_least("--episodes", self.episodes, 1)
         at_least("--seed", self.seed, 0)
-        task = make_task(self.task)
+        task, opening = self.open_task(), self.opening()
+        chosen = find_return_range(self.return_range, task)
         found = evaluate(
-            task,
-            load_policy(self.robot, task=task, agent="robot"),
-            load_policy(self.human, task=task, agent="human"),
+            task if chosen is None else with_range(task, chosen.ends),
+            load_policy(self.robot, task=task, agent="robot", opening=opening),
+            load_policy(self.human, task=task, agent="human", opening=opening),
             episodes=self.episodes,
             seed=self.seed,
         )
+        if found["adversarialness"] is not None:
+            found |= range_in_force(task, chosen).describe()
+        if expected is not None:
+            found["expected_return"] = _verdict(found, *expected)
         if self.json:
             print(json.dumps(found))
+        else:
+            spoken = spoken_range(found) if "return_range" in found else None
+            for name, value in found.items():
+                if not name.startswith(("return_range", "range_")):
+                    print(f"{name:22} {_text(value)}")
+            if spoken is not None:
+                print(f"adversarialness is {spoken}")
+        if expected is None or found["expected_return"]["ok"]:
             return 0
-        for name, value in found.items():
-            print(f"{name:22} {_text(value)}")
-        return 0
+        print(f"rigid: {_refusal(found)}", file=sys.stderr)
+        return 1
+
+
+def _verdict(found: dict[str, Any], mean: float, tolerance: float) -> dict[str, Any]:
+    """Whether the mean return is the expected one, and how sure it is itself."""
+    sound = found["episodes"] - found["faults"]
+    error = found["return_std"] / math.sqrt(sound - 1) if sound > 1 else None
+    ok = found["return"] is not None and abs(found["return"] - mean) <= tolerance
+    return {"mean": mean, "tolerance": tolerance, "standard_error": error, "ok": ok}
+
+
+def _refusal(found: dict[str, Any]) -> str:
+    verdict = found["expected_return"]
+    wanted = f"{verdict['mean']:g} ± {verdict['tolerance']:g}"
+    if found["return"] is None:
+        return f"the mean return is unknown, not {wanted}: every episode ran away"
+    error = verdict["standard_error"]
+    return (
+        f"the mean return {found['return']:.3f} (standard error {_text(error)}, "
+        f"{found['episodes']} episodes) lies outside of {wanted}: another robot, task, human or "
+        "normaliser than you expect?"
+    )
 
 
 def _text(value: object) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, dict):
         return ", ".join(f"{name} {_text(share)}" for name, share in value.items())
     if value is None:

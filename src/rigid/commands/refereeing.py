@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_seeds
 from rigid.errors import UserError
 
@@ -22,7 +23,7 @@ _shown_as = tyro.conf.arg
 
 
 @dataclass(frozen=True, kw_only=True)
-class RefereeCommand:
+class RefereeCommand(PairOptions):
     """Check the referee of naturalness on a task: exit 1 when the x axis fails one of its gates.
 
     Examples:
@@ -32,12 +33,6 @@ class RefereeCommand:
 
     check: bool = False
     """Run the gates; there is nothing else to do yet."""
-    task: str = "itch-scratching"
-    """Registered task."""
-    robot: str = "builtin:vanilla"
-    """builtin:NAME or a native policy directory."""
-    human: str = "builtin:synthetic-human"
-    """The synthetic human that the robot was trained for."""
     preset: str = "paper"
     """Training and episodes of the adversaries that the gates need."""
     seeds: Annotated[str | None, _shown_as(metavar="SEEDS")] = None
@@ -56,11 +51,10 @@ class RefereeCommand:
         from rigid.compute.referee_gates import check_referee
         from rigid.compute.subject import Subject
         from rigid.presets import find_preset
-        from rigid.tasks.registry import make_task
 
         preset = find_preset(self.preset)
         preset = preset if seeds is None else replace(preset, seeds=seeds)
-        subject = Subject(make_task(self.task), self.robot, self.human)
+        subject = Subject(self.open_task(), self.robot, self.human, opening=self.opening())
         with _place(self.out) as out, TerminalListener(f"{self.robot} · gates") as listener:
             listener.say(f"preparing {self.robot} on {self.task} (preset {preset.name})")
             verdict = check_referee(subject, preset, out=out, listener=listener)

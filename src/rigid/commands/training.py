@@ -8,6 +8,7 @@ from typing import Annotated
 
 import tyro
 
+from rigid.commands.training_clone import CloneCommand
 from rigid.commands.training_palm import PalmCommand
 from rigid.commands.training_robots import CoOptimizeCommand, GleaveCommand, VanillaCommand
 from rigid.commands.training_robust import RobustCommand
@@ -33,6 +34,10 @@ class TrainCommand:
         | Annotated[
             PalmCommand,
             tyro.conf.subcommand("palm", description=inspect.getdoc(PalmCommand)),
+        ]
+        | Annotated[
+            CloneCommand,
+            tyro.conf.subcommand("clone", description=inspect.getdoc(CloneCommand)),
         ]
         | Annotated[
             RobustCommand,

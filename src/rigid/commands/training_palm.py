@@ -31,7 +31,6 @@ class PalmCommand(RobotOptions):
         from dataclasses import replace
 
         from rigid.robots.palm import PalmRecipe, train_palm
-        from rigid.tasks.registry import make_task
 
         self.check()
         recipe = PalmRecipe()
@@ -47,7 +46,7 @@ class PalmCommand(RobotOptions):
             show_progress("personalising", palm.personalisation.iterations) as report,
         ):
             error = train_palm(
-                make_task(self.task), replace(recipe, diverse=diverse, palm=palm),
+                self.open_task(), replace(recipe, diverse=diverse, palm=palm),
                 pair=self.pair, seed=self.seed, out=self.out, canonical_episodes=self.episodes,
                 report_diverse=report_diverse, report=report,
             )  # fmt: skip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from math import isnan
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -34,7 +35,9 @@ def show_progress(what: str, iterations: int) -> Iterator[Callable[[Progress], N
         task = bar.add_task(what, total=iterations)
 
         def report(progress: Progress) -> None:
-            seen = f"return {progress.mean_return:.1f} · success {progress.success:.2f}"
+            seen = f"return {progress.mean_return:.1f}"
+            if not isnan(progress.success):  # Of a task that defines none.
+                seen += f" · success {progress.success:.2f}"
             done = progress.iteration + 1
             bar.update(task, completed=done, description=f"{what} · {seen}")
             if not console.is_terminal and done % 10 == 0:  # A bar does not show in a log.

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import tyro
 
+from rigid.commands.naming import TaskOptions
 from rigid.commands.parsing import at_least
 from rigid.commands.training_progress import show_progress
 
@@ -15,7 +16,7 @@ _count = tyro.conf.arg(metavar="INT")
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoOptimizeCommand:
+class CoOptimizeCommand(TaskOptions):
     """Train a human and a robot together; the human becomes the synthetic human.
 
     Example:
@@ -24,40 +25,38 @@ class CoOptimizeCommand:
 
     out: Path
     """Directory for human/ and robot/; an interrupted training in it goes on."""
-    task: str = "itch-scratching"
-    """Registered task."""
     seed: int = 0
     """Everything random comes from it."""
     iterations: Annotated[int | None, _count] = None
-    """Iterations of 19,200 steps; by default the recipe's."""
+    """Iterations of 192 episodes, or of 19,200 steps where episodes are longer than 100; by default
+    the recipe's."""
 
     def run(self) -> int:
         """Trains the pair."""
         from rigid.learning.cooptimisation import CoOptimisationSettings
+        from rigid.robots.fitting import fitted
         from rigid.robots.pair import train_pair
-        from rigid.tasks.registry import make_task
 
         at_least("--seed", self.seed, 0)
-        settings = CoOptimisationSettings()
+        settings, task = CoOptimisationSettings(), self.open_task()
         if self.iterations is not None:
             at_least("--iterations", self.iterations, 1)
             settings = CoOptimisationSettings(iterations=self.iterations)
+        settings = fitted(settings, task.horizon)
         with show_progress("co-optimising", settings.iterations) as report:
-            train_pair(make_task(self.task), settings, seed=self.seed, out=self.out, report=report)
+            train_pair(task, settings, seed=self.seed, out=self.out, report=report)
         print(f"human: {self.out / 'human'}\nrobot: {self.out / 'robot'}")
         return 0
 
 
 @dataclass(frozen=True, kw_only=True)
-class RobotOptions:
+class RobotOptions(TaskOptions):
     """What every recipe needs that starts from a pair."""
 
     pair: Path
     """Directory of `rigid train co-optimize`."""
     out: Path
     """Directory for the robot; an interrupted training in it goes on."""
-    task: str = "itch-scratching"
-    """Registered task."""
     seed: int = 0
     """Everything random comes from it."""
     iterations: Annotated[int | None, _count] = None
@@ -89,17 +88,18 @@ class VanillaCommand(RobotOptions):
         from dataclasses import replace
 
         from rigid.learning.personalisation import PersonalisationSettings
+        from rigid.robots.fitting import fitted
         from rigid.robots.vanilla import train_vanilla
-        from rigid.tasks.registry import make_task
 
         self.check()
         at_least("--memory", self.memory, 1)
-        settings = replace(PersonalisationSettings(), memory=self.memory)
+        task = self.open_task()
+        settings = fitted(replace(PersonalisationSettings(), memory=self.memory), task.horizon)
         if self.iterations is not None:
             settings = replace(settings, iterations=self.iterations)
         with show_progress("personalising", settings.iterations) as report:
             train_vanilla(
-                make_task(self.task), settings, pair=self.pair, seed=self.seed, out=self.out,
+                task, settings, pair=self.pair, seed=self.seed, out=self.out,
                 canonical_episodes=self.episodes, report=report,
             )  # fmt: skip
         print(f"robot: {self.out}")
@@ -124,10 +124,11 @@ class GleaveCommand(RobotOptions):
         """Trains population and robot."""
         from dataclasses import replace
 
+        from rigid.robots.fitting import fitted
         from rigid.robots.gleave import GleaveSettings, train_gleave
-        from rigid.tasks.registry import make_task
 
         self.check()
+        task = self.open_task()
         settings = GleaveSettings()
         personalisation, population = settings.personalisation, settings.population
         if self.iterations is not None:
@@ -135,13 +136,17 @@ class GleaveCommand(RobotOptions):
         if self.population_iterations is not None:
             at_least("--population-iterations", self.population_iterations, 1)
             population = replace(population, iterations=self.population_iterations)
-        settings = replace(settings, personalisation=personalisation, population=population)
+        settings = replace(
+            settings,
+            personalisation=fitted(personalisation, task.horizon),
+            population=fitted(population, task.horizon),
+        )
         with (
             show_progress("co-optimising", population.iterations) as of_population,
             show_progress("personalising", personalisation.iterations) as report,
         ):
             train_gleave(
-                make_task(self.task), settings, pair=self.pair, seed=self.seed, out=self.out,
+                task, settings, pair=self.pair, seed=self.seed, out=self.out,
                 canonical_episodes=self.episodes, report_population=of_population, report=report,
             )  # fmt: skip
         print(f"robot: {self.out}")

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from rigid.compute.evaluation import evaluate
+from rigid.compute.return_range import stored_range
 from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.compute.subject import measured_robot
 from rigid.errors import UserError
@@ -19,10 +20,12 @@ from rigid.files import json_text, read_bytes, write_atomically
 from rigid.frontier.result import Frontier, load_frontier
 from rigid.learning.best_response import ResponseSettings, best_response
 from rigid.policies.loading import load_policy
+from rigid.policies.opening import NAMED_BY_FILE, SAFE, Opening
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import task_from_description
 from rigid.tasks.views.everything import SeeingEverything
+from rigid.tasks.views.ranged import with_range
 
 FILE = "blame.json"
 HARMFUL = 0.05
@@ -40,6 +43,7 @@ def blame(
     directory: Path,
     *,
     robot: str | None = None,
+    opening: Opening = SAFE,
     points: Sequence[str] | None = None,
     settings: ResponseSettings | None = None,
     say: Say = lambda _: None,
@@ -49,6 +53,7 @@ def blame(
     Args:
         directory: A finished run directory of one of RIGID's own tasks.
         robot: Where the measured robot is now; by default where it was.
+        opening: How `robot` is opened; what only the run names never runs code.
         points: Ids; by default every harmful point on the frontier.
         settings: Budget of a response.
         say: Told of progress.
@@ -65,7 +70,11 @@ def blame(
     task = task_from_description(identity["task"])
     if task is None:
         raise UserError(f"{directory} was measured on a task that is not RIGID's own")
-    measured = measured_robot(robot or str(frontier.data["robot"]), task, identity)
+    measured = measured_robot(
+        robot or str(frontier.data["robot"]), task, identity,
+        opening=opening if robot else NAMED_BY_FILE,
+    )  # fmt: skip
+    task = with_range(task, stored_range(frontier.data).ends)  # The anchor's, for all that follows.
     anchor = float(frontier.data["canonical"]["adversarialness"])
     known = _stored(directory / FILE)
     for name in points or harmful_points(frontier):

@@ -56,18 +56,13 @@ def divide_recorded(
         where: The file, for messages.
 
     Raises:
-        UserError: There are fewer than 12, or their returns are unknown.
+        UserError: There are fewer than 12.
     """
     count = len(episodes)
     if count < FEWEST:
         raise UserError(
             f"{where} holds {count} recorded episodes, but the referee needs at least {FEWEST}: "
             "record more, since fewer cannot tell natural from unnatural"
-        )
-    if np.isnan(episodes.returns).any():
-        raise UserError(
-            f"{where} has episodes of unknown return: record returns as well, since the frontier "
-            "ends at the adversarialness of canonical behaviour"
         )
     order = np.random.default_rng(_SHUFFLE_SEED).permutation(count)
     shown = min(search, count // _SEARCH_SHARE)
@@ -89,6 +84,9 @@ def pick(episodes: CanonicalEpisodes, which: np.ndarray) -> CanonicalEpisodes:
         seeds=episodes.seeds[which],
         returns=episodes.returns[which],
         success=episodes.success[which],
+        rewards=None if episodes.rewards is None else episodes.rewards[which],
+        times=None if episodes.times is None else episodes.times[which],
+        about=episodes.about.pick(which),
     )
 
 
@@ -107,6 +105,8 @@ def chosen_features(
     """
     if features.label == DEFAULT:
         return episodes.features
+    if max(features.columns) < episodes.features.shape[2]:  # Some of the task's own.
+        return episodes.features[..., list(features.columns)]
     if episodes.observations is None or episodes.actions is None:
         raise UserError(
             f"{where} holds no observations and actions, so features {features.label!r} cannot be "

@@ -24,6 +24,7 @@ from rigid.errors import UserError
 from rigid.naturalness.features import DEFAULT
 from rigid.naturalness.panel import Panel
 from rigid.naturalness.strictest import UpperBound
+from rigid.policies.opening import NAMED_BY_FILE, SAFE
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task, adversarialness
 
@@ -126,11 +127,11 @@ def _courts(runs: Sequence[MeasuredRun], robot: str | None) -> list[_Court]:
     courts = []
     for places in together.values():
         first = runs[places[0]]
-        spec = robot or str(first.frontier.data["robot"])
+        spec, opening = robot or str(first.frontier.data["robot"]), SAFE if robot else NAMED_BY_FILE
         ids = {place: [point["id"] for point in runs[place].frontier.points] for place in places}
         panels = [p for place in places for p in stored_panels(runs[place].directory, ids[place])]
         courts.append(_Court(
-            tuple(places), measured_robot(spec, first.task, first.identity),
+            tuple(places), measured_robot(spec, first.task, first.identity, opening=opening),
             str(first.identity.get("features", DEFAULT)),
             tuple((place, point) for place in places for point in ids[place]), tuple(panels),
         ))  # fmt: skip

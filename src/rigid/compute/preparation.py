@@ -9,6 +9,7 @@ from typing import Any
 
 import jax
 import numpy as np
+from jaxtyping import Float
 
 from rigid.compute.canonical import (
     Divided,
@@ -18,6 +19,7 @@ from rigid.compute.canonical import (
 )
 from rigid.compute.endings import ended, measure
 from rigid.compute.identity import identity_of
+from rigid.compute.return_range import ReturnRange, range_in_force
 from rigid.compute.scoring import (
     Ruler,
     naturalness_of,
@@ -30,7 +32,7 @@ from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.learning.adversary_settings import ALONE, SHARED, AdversarySettings
 from rigid.learning.group_play import Opponent, phase_rng
-from rigid.learning.rollout import policy_actor
+from rigid.learning.rollout import Trajectories, policy_actor
 from rigid.naturalness.choice import DEFAULT_MEASURE, check_measure
 from rigid.naturalness.features import Features, choose_features, seen_through
 from rigid.naturalness.panel import train_panel
@@ -40,6 +42,7 @@ from rigid.policies.passive import PassivePolicy
 from rigid.policies.protocol import Policy
 from rigid.presets import Preset
 from rigid.tasks.protocol import Task, adversarialness
+from rigid.tasks.views.ranged import with_range
 
 _BLOCK = 100  # Episodes played side by side in every recording.
 
@@ -49,9 +52,11 @@ class Prepared:
     """The frozen part of a measurement."""
 
     task: Task
-    """The subject's, with the features that the user chose."""
+    """The subject's, with the features and the range that the user chose."""
     opponent: Opponent
     ruler: Ruler
+    return_range: ReturnRange
+    """The ruler's, and where it comes from."""
     canonical: dict[str, Any]
     """The `canonical` block of `frontier.json`."""
     env_steps: int
@@ -68,18 +73,16 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
     """
     if subject.canonical_draw < 0:
         raise UserError(f"canonical_draw is {subject.canonical_draw}, but must be 0 or more")
-    task, features = subject.task, choose_features(subject.features, subject.task)
-    if task.return_range is None:
-        raise UserError(
-            f"task {task.name!r} has no range of adversarialness: set its return_range to the "
-            "returns (worst, best) that map to 1 and 0"
-        )
+    features = choose_features(subject.features, subject.task)
+    range_ = range_in_force(subject.task, subject.return_range)
+    task = with_range(subject.task, range_.ends) if range_.source != "task" else subject.task
     robot, human = load_players(subject)
     referee = RefereeSettings()
     canonical, played = _canonical(subject, robot, human, preset, features, referee)
-    ruler = Ruler(canonical.folds, task.return_range, referee)
+    ruler = Ruler(canonical.folds, range_.ends, referee)
     begun = time.perf_counter()
-    reward_std = _reward_std(task, robot, human, subject.canonical_draw)
+    human_play = _human_play(task, robot, human, subject.canonical_draw)
+    reward_std = deviation(human_play.reward)
     spent = time.perf_counter() - begun
     search = canonical.search
     opponent = Opponent(robot, human.parameters, search.features, search.seeds, reward_std)
@@ -87,7 +90,8 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
         seen_through(task, features),
         opponent,
         ruler,
-        _canonical_block(task, canonical),
+        range_,
+        _canonical_block(range_, canonical, human_play),
         env_steps=(played + _BLOCK) * task.horizon,
         steps_per_second=_BLOCK * task.horizon / spent,
         identity={
@@ -161,25 +165,44 @@ def _played(episodes: int) -> int:
     return -(-episodes // _BLOCK) * _BLOCK
 
 
-def _reward_std(task: Task, robot: Policy, human: GaussianPolicy, draw: int) -> float:
-    """Per-step standard deviation of canonical reward, σ_R of the search."""
+def _human_play(task: Task, robot: Policy, human: GaussianPolicy, draw: int) -> Trajectories:
+    """Episodes of the human; the deviation of their reward is σ_R of the search."""
     rng = phase_rng(draw, "canonical")
     starts = rng.integers(2**31, size=_BLOCK)
-    episodes = play_with(task, robot, policy_actor(human, _BLOCK, rng), starts)
-    return max(float(episodes.reward.std()), 1e-6)
+    return play_with(task, robot, policy_actor(human, _BLOCK, rng), starts)
 
 
-def _canonical_block(task: Task, canonical: Divided) -> dict[str, Any]:
-    assert task.return_range is not None
+def deviation(reward: Float[np.ndarray, "*n"]) -> float:
+    """Standard deviation of reward, above 0, in whatever unit it comes.
+
+    Where reward never changes, its size is the unit, and 1 where it is always 0: no number of a
+    search may depend on the unit that a task counts reward in.
+
+    Example:
+        >>> deviation(np.array([0.0, 0.002])), deviation(np.zeros(2))
+        (0.001, 1.0)
+    """
+    size = float(np.abs(reward).max())
+    return max(float(reward.std()), 1e-6 * size) or 1.0
+
+
+def _canonical_block(
+    range_: ReturnRange, canonical: Divided, human_play: Trajectories
+) -> dict[str, Any]:
+    """The canonical point; where nobody recorded what people returned, that of their human."""
     returns = canonical.referee.returns[canonical.anchor]
+    recorded = not np.isnan(returns).any()
+    if not recorded:
+        returns = human_play.returns[human_play.faulted == 0]
     success = float(np.mean(canonical.referee.success[canonical.anchor]))
     return {
         "success": None if np.isnan(success) else success,
         "return": float(returns.mean()),
-        "adversarialness": float(adversarialness(returns, task.return_range).mean()),
+        "adversarialness": float(adversarialness(returns, range_.ends).mean()),
         "episodes": len(canonical.search),
         "episodes_referee": len(canonical.referee),
         "source": canonical.search.source,
+        "return_source": "episodes" if recorded else "human",
     }
 
 

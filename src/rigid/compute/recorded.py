@@ -7,7 +7,7 @@ again. Another robot is noticed, since then the return does not.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,13 +19,13 @@ from rigid.compute.referee_files import load_panel
 from rigid.compute.run_directory import RunDirectory
 from rigid.data.episodes import CanonicalEpisodes
 from rigid.errors import UserError
-from rigid.learning.rollout import Actor, play, policy_actor
+from rigid.learning.rollout import Actor, Trajectories, play, policy_actor
 from rigid.naturalness.features import choose_features
 from rigid.naturalness.panel import Panel
 from rigid.naturalness.strictest import UpperBound, strictest_naturalness
 from rigid.naturalness.views import all_sound
 from rigid.policies.protocol import Policy
-from rigid.tasks.protocol import Task
+from rigid.tasks.protocol import Step, Task, World
 
 RETURN_TOLERANCE = 0.05
 """Largest difference between the return of an episode and that of its replay, as a share of the
@@ -93,19 +93,48 @@ def replay_recording(
     Raises:
         UserError: Nobody recorded the human's actions.
     """
+    states: list[np.ndarray] = []
+    world = task.make_world(len(recording))
+
+    def watch(*_: object) -> None:
+        states.append(world.snapshot())
+
+    played = play_again(task, robot, recording, where=where, world=world, watch=watch)
+    returns = np.where(played.faulted > 0, np.nan, played.returns)  # A fault is no return.
+    return Replayed(np.stack(states).swapaxes(0, 1), returns)
+
+
+def play_again(
+    task: Task,
+    robot: Policy,
+    recording: CanonicalEpisodes,
+    *,
+    where: Path,
+    world: World | None = None,
+    watch: Callable[[int, Step], None] | None = None,
+) -> Trajectories:
+    """As `replay_recording`: what both saw and did, step by step.
+
+    Args:
+        task: The task that they were recorded in.
+        robot: Acts by its mean.
+        recording: Whose human acts as it did.
+        where: Its file, for messages.
+        world: A world for each episode; by default a new one.
+        watch: Called with the step number (0 after the reset) and the step.
+
+    Raises:
+        UserError: Nobody recorded the human's actions.
+    """
     if recording.actions is None:
         raise UserError(
             f"{where} holds no actions of the human, so nobody can see its episodes again: record "
             "them as well, as `rigid record` does"
         )
-    world = task.make_world(len(recording))
-    states: list[np.ndarray] = []
-    played = play(
-        task, world, recording.seeds, policy_actor(robot, len(recording), None),
-        _again(recording.actions), watch=lambda *_: states.append(world.snapshot()),
+    return play(
+        task, world or task.make_world(len(recording)), recording.seeds,
+        policy_actor(robot, len(recording), None), _again(recording.actions), watch=watch,
     )  # fmt: skip
-    returns = np.where(played.faulted > 0, np.nan, played.returns)  # A fault is no return.
-    return Replayed(np.stack(states).swapaxes(0, 1), returns)
 
 
 def reproduced(

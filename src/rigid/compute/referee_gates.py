@@ -16,7 +16,7 @@ import numpy as np
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
 from rigid.compute.scoring import play_with, seen_by_referee
-from rigid.compute.subject import Subject
+from rigid.compute.subject import Subject, load_players
 from rigid.compute.verdict import Gate, Verdict, at_least, ends_gates, planted_gates
 from rigid.data.recording import record
 from rigid.files import json_text, write_atomically
@@ -95,8 +95,7 @@ def _recipe_gates(
     listener: Listener,
 ) -> list[Gate]:
     task = subject.task
-    robot = load_policy(subject.robot, task=task, agent="robot")
-    human = load_policy(subject.human, task=task, agent="human")
+    robot, human = load_players(subject)
     listener.say("playing episodes for the gates")
     pool = record(
         task, robot, human, episodes=sizes.pool, seed=_SEED, batch=_BLOCK, provenance={}

@@ -21,12 +21,12 @@ from rigid.compute.processes import GAIN_OF_PROCESSES, cores
 from rigid.compute.provenance import command_line
 from rigid.compute.run_directory import OpenRun, alone_in, check_place, check_same, open_run
 from rigid.compute.seed_search import SeedSearch
-from rigid.compute.subject import Subject
+from rigid.compute.subject import Subject, load_robot
 from rigid.files import json_text, write_atomically
 from rigid.frontier.result import load_frontier, measured_points
 from rigid.frontier.statistics import summarize_seeds
 from rigid.learning.adversary_settings import AdversarySettings
-from rigid.policies.loading import load_policy, policy_hash
+from rigid.policies.loading import policy_hash
 from rigid.presets import Preset
 
 
@@ -69,7 +69,7 @@ class Order:
         seeds_of(self.preset, self.seeds)
         known = settings_identity(self.preset, self.settings) | {"lambdas": self.exactly}
         check_place(self.out)
-        robot = load_policy(self.subject.robot, task=self.subject.task, agent="robot")
+        robot = load_robot(self.subject)
         check_same(self.out, known | {"robot": policy_hash(robot)})
 
     @property
@@ -143,8 +143,7 @@ class RobotRun:
             "features": prepared.identity["features"],
             "canonical": prepared.canonical,
             **headline,
-            "return_range": list(prepared.ruler.return_range),
-            "range_source": "task",
+            **prepared.return_range.describe(),
             "passive": passive,
             "stamp": preset.stamp,
             **_costs(points, prepared, preset, subject.task.horizon),

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rigid.compute.return_range import ReturnRange
 from rigid.errors import UserError
 from rigid.naturalness.features import DEFAULT
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import BUNDLED, load_policy, policy_hash
+from rigid.policies.opening import NAMED_BY_FILE, SAFE, Opening
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 
@@ -32,6 +34,10 @@ class Subject:
     """A file of canonical episodes; by default the robot's own, or a fresh recording."""
     features: str = DEFAULT
     """What naturalness sees of the human, for search and referee alike; see `choose_features`."""
+    opening: Opening = SAFE
+    """How files of other libraries are opened."""
+    return_range: ReturnRange | None = None
+    """The range of adversarialness in place of the task's own; see `find_return_range`."""
     canonical_draw: int = 0
     """Which draw of canonical play this is: the referee's episodes, the deviation of reward and,
     where `canonical` names no file, the search's episodes. Draw 0 is everybody's, and alone takes
@@ -48,14 +54,23 @@ class Subject:
         return _FIRST_RULER_SEED + self.canonical_draw
 
 
+def load_robot(subject: Subject) -> Policy:
+    """The robot.
+
+    Raises:
+        UserError: It does not exist, is damaged or does not fit.
+    """
+    return load_policy(subject.robot, task=subject.task, agent="robot", opening=subject.opening)
+
+
 def load_players(subject: Subject) -> tuple[Policy, GaussianPolicy]:
     """The robot, and the synthetic human that the search starts from.
 
     Raises:
         UserError: One does not exist, is damaged or does not fit; the human is none to search with.
     """
-    robot = load_policy(subject.robot, task=subject.task, agent="robot")
-    human = load_policy(subject.human, task=subject.task, agent="human")
+    robot = load_robot(subject)
+    human = load_policy(subject.human, task=subject.task, agent="human", opening=subject.opening)
     if not isinstance(human, GaussianPolicy):
         raise UserError(
             f"human {subject.human!r} has no action noise to search with: name a synthetic human, "
@@ -70,7 +85,12 @@ def load_players(subject: Subject) -> tuple[Policy, GaussianPolicy]:
 
 
 def measured_robot(
-    spec: str, task: Task, identity: Mapping[str, Any], *, cure: str = "name it with --robot"
+    spec: str,
+    task: Task,
+    identity: Mapping[str, Any],
+    *,
+    cure: str = "name it with --robot",
+    opening: Opening = NAMED_BY_FILE,
 ) -> Policy:
     """The robot of a finished run, from where it is now.
 
@@ -79,11 +99,12 @@ def measured_robot(
         task: The run's.
         identity: Of the run's settings.
         cure: What to do about another robot; ends the message.
+        opening: How its file is opened; by default as that of a robot which the run names.
 
     Raises:
         UserError: There is no robot, or it is not the one that was measured.
     """
-    robot = load_policy(spec, task=task, agent="robot")
+    robot = load_policy(spec, task=task, agent="robot", opening=opening)
     if policy_hash(robot) != identity.get("robot"):
         raise UserError(f"robot {spec!r} is not the one that was measured: {cure}")
     return robot

@@ -8,9 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from rigid.data.about import About
 from rigid.errors import UserError
 from rigid.files import first_difference
 from rigid.tasks.protocol import Task
+
+_PER_STEP = {"features": 3, "observations": 3, "actions": 3, "rewards": 2, "times": 2}
+"""Arrays with a row for each step, and their dimensions."""
 
 
 def check_task(
@@ -79,7 +83,7 @@ def check_values(
     names = {"features": feature_names}
     if task is not None:
         names["observations"] = task.human.observation_names
-    for name in ("features", "observations", "actions"):
+    for name in _PER_STEP:
         if name in arrays:
             _check_finite(arrays[name], name, names.get(name, ()), where)
     for name in ("returns", "success"):  # NaN there says that nobody knows.
@@ -93,9 +97,9 @@ def check_values(
 def _check_lengths(arrays: Mapping[str, np.ndarray], where: Path) -> None:
     episodes, steps = arrays["features"].shape[:2]
     for name, array in arrays.items():
-        per_step = name in {"features", "observations", "actions"}
-        expected = (episodes, steps) if per_step else (episodes,)
-        if array.ndim != (3 if per_step else 1) or array.shape[: len(expected)] != expected:
+        dimensions = _PER_STEP.get(name, 1)
+        expected = (episodes, steps) if name in _PER_STEP else (episodes,)
+        if array.ndim != dimensions or array.shape[: len(expected)] != expected:
             raise UserError(
                 f"{where}: {name} have shape {array.shape}, but there are features for {episodes} "
                 f"episodes of {steps} steps: record everything at every step"
@@ -122,12 +126,25 @@ def _check_finite(array: np.ndarray, name: str, names: Sequence[str], where: Pat
     broken = np.argwhere(~np.isfinite(array))
     if not broken.size:
         return
-    episode, step, column = (int(index) for index in broken[0])
-    which = repr(names[column]) if names else f"{column}"
+    episode, step, *column = (int(index) for index in broken[0])
+    which = "".join(f", {name.removesuffix('s')} {repr(names[c]) if names else c}" for c in column)
     raise UserError(
         f"{where}: {name} hold {len(broken)} numbers that are not finite, the first in episode "
-        f"{episode}, step {step}, {name.removesuffix('s')} {which}: leave such episodes out"
+        f"{episode}, step {step}{which}: leave such episodes out"
     )
+
+
+def check_notes(about: About, episodes: int, *, where: Path) -> None:
+    """Refuses notes of another number of episodes than there are.
+
+    Raises:
+        UserError: The message names both numbers.
+    """
+    notes = len(about.episodes)
+    if notes not in {0, episodes}:
+        raise UserError(
+            f"{where} has notes on {notes} episodes, but holds {episodes}: give each its own"
+        )
 
 
 def _feature_difference(found: Sequence[str], task: Task) -> str:

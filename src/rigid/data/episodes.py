@@ -2,12 +2,14 @@
 
 On disk: one compressed `.npz` without pickle. Its arrays carry the names of the fields below, and
 `header` is JSON with everything else, so that `numpy.load` and `json.loads` open it anywhere.
+`docs/data-format.md` describes every field.
 """
 
 from __future__ import annotations
 
 import hashlib
 import io
+import json
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -19,7 +21,8 @@ import numpy as np
 from jaxtyping import Float, Int
 from pydantic import BaseModel, ConfigDict, PositiveFloat
 
-from rigid.data.checks import check_task, check_values
+from rigid.data.about import NOTHING_SAID, About
+from rigid.data.checks import check_notes, check_task, check_values
 from rigid.errors import UserError
 from rigid.files import json_text, parse_header, write_atomically
 from rigid.tasks.protocol import Task
@@ -27,9 +30,13 @@ from rigid.tasks.protocol import Task
 Source = Literal["synthetic", "recorded"]
 
 FORMAT_VERSION = 1
+"""What was added since (`rewards`, `times`, `about`) is optional, and old readers pass over it."""
 
 _FLOATS = ("features", "observations", "actions", "returns", "success")
-_OPTIONAL = ("observations", "actions")
+_TOLD = ("rewards", "times")
+"""Told on top; never part of `data_hash`."""
+_OPTIONAL = ("observations", "actions", *_TOLD)
+_TYPES = {"seeds": np.int64, "times": np.float64}
 _CURE = "copy the file or record it again"
 
 
@@ -62,6 +69,12 @@ class CanonicalEpisodes:
     """Hashes of robot and human, seed, …; never part of `data_hash`."""
     control_period: float = 0.1
     """Time between steps [s]."""
+    rewards: Float[np.ndarray, "E T"] | None = None
+    """Of each step, float32; None where nobody recorded it."""
+    times: Float[np.ndarray, "E T"] | None = None
+    """When each row's features were seen, on the recording's own clock [s]; None where unknown."""
+    about: About = NOTHING_SAID
+    """Units, consent, licence, participants; never part of `data_hash`."""
 
     def __len__(self) -> int:
         return len(self.features)
@@ -78,6 +91,7 @@ class _Header(BaseModel):
     source: Source
     provenance: Mapping[str, Any]
     control_period: PositiveFloat
+    about: About = NOTHING_SAID
 
 
 def save_episodes(path: Path | str, episodes: CanonicalEpisodes) -> None:
@@ -88,10 +102,12 @@ def save_episodes(path: Path | str, episodes: CanonicalEpisodes) -> None:
     """
     path = Path(path)
     check_values(_arrays(episodes), episodes.feature_names, where=path)
+    check_notes(episodes.about, len(episodes), where=path)
     buffer = io.BytesIO()
     np.savez_compressed(
-        buffer, allow_pickle=False, header=np.array(_header_text(episodes)), **_arrays(episodes)
-    )
+        buffer, allow_pickle=False,
+        header=np.array(_header_text(episodes, **_told(episodes.about))), **_arrays(episodes),
+    )  # fmt: skip
     path.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(path, buffer.getvalue())
 
@@ -117,30 +133,42 @@ def load_episodes(path: Path | str, *, task: Task | None) -> CanonicalEpisodes:
     if task is not None:
         check_task(header.task, header.feature_names, task, where=path)
     check_values(arrays, header.feature_names, where=path, task=task)
+    check_notes(header.about, len(arrays["features"]), where=path)
     fields: dict[str, Any] = {**dict.fromkeys(_OPTIONAL), **arrays, **_shared(header)}
+    fields["about"] = header.about
     return CanonicalEpisodes(**fields)
 
 
 def data_hash(episodes: CanonicalEpisodes) -> str:
     """SHA-256 over the episodes and the task they belong to; part of 'same settings'.
 
-    Provenance is left out: it says where the numbers come from, not what they are.
+    Provenance, `about`, `rewards` and `times` are left out: they say where the numbers come from,
+    not what they are.
     """
     digest = hashlib.sha256(_header_text(episodes, provenance={}).encode())
     for name, array in sorted(_arrays(episodes).items()):
+        if name in _TOLD:
+            continue
         digest.update(f"\0{name} {array.shape}\0".encode())
         digest.update(np.ascontiguousarray(array, array.dtype.newbyteorder("<")).tobytes())
     return digest.hexdigest()
 
 
+def beside(episodes: CanonicalEpisodes) -> dict[str, Any]:
+    """What the header says but for notes on single episodes, for formats with room of their own."""
+    about = episodes.about.model_dump(exclude={"episodes"}, exclude_defaults=True)
+    text = _header_text(episodes, about=about)
+    return dict(json.loads(text))
+
+
 def _arrays(episodes: CanonicalEpisodes) -> dict[str, np.ndarray]:
     """The arrays by name, in the types they have on disk; absent ones left out."""
-    arrays = {"seeds": np.asarray(episodes.seeds, np.int64)}
-    for name in _FLOATS:
-        array = getattr(episodes, name)
-        if array is not None:
-            arrays[name] = np.asarray(array, np.float32)
-    return arrays
+    found = {name: getattr(episodes, name) for name in ("seeds", *_FLOATS, *_TOLD)}
+    return {
+        name: np.asarray(array, _TYPES.get(name, np.float32))
+        for name, array in found.items()
+        if array is not None
+    }
 
 
 def _header_text(episodes: CanonicalEpisodes, **changes: Any) -> str:
@@ -148,8 +176,15 @@ def _header_text(episodes: CanonicalEpisodes, **changes: Any) -> str:
 
 
 def _shared(source: CanonicalEpisodes | _Header) -> dict[str, Any]:
-    """What header and episodes both hold, by name."""
-    return {name: getattr(source, name) for name in _Header.model_fields if name != "format"}
+    """What header and episodes both hold, by name; `about` aside."""
+    names = _Header.model_fields.keys() - {"format", "about"}
+    return {name: getattr(source, name) for name in names}
+
+
+def _told(about: About) -> dict[str, Any]:
+    """`about` as the header has it; no entry where nothing was said, as in older files."""
+    said = about.model_dump(exclude_defaults=True)
+    return {"about": said} if said else {}
 
 
 def _read_arrays(path: Path) -> dict[str, np.ndarray]:
@@ -176,14 +211,13 @@ def _read_arrays(path: Path) -> dict[str, np.ndarray]:
 def _typed(arrays: dict[str, np.ndarray], path: Path) -> dict[str, np.ndarray]:
     """The arrays that episodes are made of, in their types in memory."""
     typed = {}
-    for name in ("seeds", *_FLOATS):
+    for name in ("seeds", *_FLOATS, *_TOLD):
         if name not in arrays and name in _OPTIONAL:
             continue
         if name not in arrays:
             raise UserError(f"{path} has no {name!r}: {_CURE}")
-        kinds, dtype = ("iu", np.int64) if name == "seeds" else ("iuf", np.float32)
-        if arrays[name].dtype.kind not in kinds:
+        if arrays[name].dtype.kind not in ("iu" if name == "seeds" else "iuf"):
             raise UserError(f"{path}: {name} are {arrays[name].dtype}, no numbers: {_CURE}")
         with np.errstate(over="ignore"):  # What float32 cannot hold becomes inf, and is refused.
-            typed[name] = arrays[name].astype(dtype)
+            typed[name] = arrays[name].astype(_TYPES.get(name, np.float32))
     return typed

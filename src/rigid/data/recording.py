@@ -13,7 +13,7 @@ from rigid.data.episodes import CanonicalEpisodes
 from rigid.errors import UserError
 from rigid.learning.rollout import Trajectories, play, policy_actor
 from rigid.policies.protocol import Policy
-from rigid.tasks.protocol import Task, World
+from rigid.tasks.protocol import Task, World, control_period
 
 
 class _Block(NamedTuple):
@@ -111,4 +111,5 @@ def _keep(
         feature_names=tuple(task.feature_names),
         source="synthetic",
         provenance=provenance,
+        control_period=control_period(task),
     )

@@ -2,7 +2,7 @@
 
 For a weight λ the adversary maximises, per step,
 
-    -R / σ_R - λ · penalty / σ_P            (paper, Eq. 6; by default with Eq. 2's D)
+    -R / σ_R - λ · penalty / σ_P            (paper, Eq. 4; by default with Eq. 2's D)
 
 σ_R is the per-step standard deviation of canonical reward, σ_P the measure's unit, by default the
 deviation of the penalty on canonical motion before training; both are frozen. λ = ∞ drops the first

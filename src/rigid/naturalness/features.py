@@ -67,10 +67,12 @@ def choose_features(text: str, task: Task) -> Features:
     everything = own + observed + done
     if text == DEFAULT and own:
         return Features(DEFAULT, own, tuple(range(len(own))))
+    # A task may declare them itself, since it knows better what they are where an episode is over.
+    first = 0 if own[: len(observed)] == observed and len(own) == len(observed + done) else len(own)
     if text == OBSERVATION:
-        chosen = range(len(own), len(own) + len(observed))
+        chosen = range(first, first + len(observed))
     elif text in {DEFAULT, OBSERVATION_ACTION}:
-        text, chosen = OBSERVATION_ACTION, range(len(own), len(everything))
+        text, chosen = OBSERVATION_ACTION, range(first, first + len(observed + done))
     else:
         return _by_name([name.strip() for name in text.split(",")], task)
     return Features(text, tuple(everything[place] for place in chosen), tuple(chosen))

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
+from typing import NamedTuple
 
 from rigid.errors import UserError
 from rigid.files import json_text
 from rigid.policies.architecture import NativePolicy, architecture_of, weights_of
+from rigid.policies.foreign import Wanted, check_made_for
 from rigid.policies.native import (
     CARD_FILE,
     Agent,
@@ -19,8 +23,9 @@ from rigid.policies.native import (
     load_card,
     load_native,
 )
+from rigid.policies.opening import SAFE, Opening
 from rigid.policies.passive import PassivePolicy
-from rigid.policies.protocol import Policy
+from rigid.policies.protocol import Fingerprinted, Policy
 from rigid.tasks.protocol import AgentSpec, BringsPolicies, Task
 
 BUNDLED: Traversable = resources.files("rigid") / "bundled"
@@ -28,32 +33,106 @@ BUNDLED: Traversable = resources.files("rigid") / "bundled"
 
 _BUILTIN = "builtin:"
 _PASSIVE = "passive"
-_KINDS = f"{_BUILTIN}NAME or a native policy directory ({CARD_FILE} beside its weights)"
+_ONNX = ".onnx"
+_Open = Callable[[str, Wanted, Opening], Policy]
+"""From what follows the colon to a policy."""
 
 
-def load_policy(spec: str, *, task: Task, agent: Agent) -> Policy:
+class _Kind(NamedTuple):
+    """Policies of one sort, as users name them."""
+
+    form: str
+    open: _Open
+    runs_code: bool
+    """Whether the name alone makes something run, so that no file may choose it."""
+
+
+def load_policy(
+    spec: str, *, task: Task, agent: Agent = "robot", opening: Opening = SAFE
+) -> Policy:
     """The policy that `spec` names, for `agent` of `task`.
 
     Args:
-        spec: `builtin:NAME` or a native policy directory.
+        spec: `builtin:NAME`, a native policy directory, `FILE.onnx`, `sb3:FILE.zip`,
+            `torchscript:FILE.pt`, `exec:COMMAND` or `python:MODULE:FACTORY` (docs/policies.md).
         task: The task it has to fit.
         agent: Whom it acts for.
+        opening: How files of other libraries are opened.
 
     Raises:
-        UserError: There is no such policy, its files are damaged, it acts for the other agent, was
-            trained for another task, or sees or does another number of things than `task` asks for.
+        UserError: There is no such policy, its files are damaged or may run code and are not
+            trusted, it acts for the other agent, was trained for another task, or sees or does
+            another number of things than `task` asks for.
     """
-    policy: Policy
-    if spec == f"{_BUILTIN}{_PASSIVE}" and agent == "human":
-        policy = PassivePolicy(task.human.observation_size, task.human.action_size)
-    elif spec.startswith(_BUILTIN):
-        policy = _load_builtin(spec.removeprefix(_BUILTIN), task, agent)
-    elif Path(spec).is_dir():
-        policy = _load_directory(Path(spec), spec, task, agent)
-    else:
-        raise UserError(f"{agent} {spec!r} {_why_unknown(spec, task, agent)}")
+    wanted = Wanted(spec, agent, task)
+    if agent == "robot" and not spec.startswith("sb3:"):
+        _check_unused(opening, wanted)
+    policy = _open(wanted, opening)
     check_sizes(policy, spec, task=task, agent=agent)
     return policy
+
+
+def _open(wanted: Wanted, opening: Opening) -> Policy:
+    spec, task, agent = wanted.spec, wanted.task, wanted.agent
+    if spec == f"{_BUILTIN}{_PASSIVE}" and agent == "human":
+        return PassivePolicy(task.human.observation_size, task.human.action_size)
+    if spec.startswith(_BUILTIN):
+        return _load_builtin(spec.removeprefix(_BUILTIN), task, agent)
+    if Path(spec).is_dir():
+        return _load_directory(Path(spec), wanted)
+    if spec.lower().endswith(_ONNX) and spec.partition(":")[0] not in _KINDS:
+        return _onnx(spec, wanted, opening)
+    kind, colon, place = spec.partition(":")
+    if not colon or kind not in _KINDS:
+        raise UserError(f"{wanted.label} {_why_unknown(spec, task, agent)}")
+    if _KINDS[kind].runs_code and not opening.named_by_user:
+        raise UserError(f"{wanted.label} would run code that a file names: name it yourself")
+    if not place.strip():
+        raise UserError(f"{wanted.label} names nothing: write {_KINDS[kind].form}")
+    return _KINDS[kind].open(place, wanted, opening)
+
+
+def _onnx(place: str, wanted: Wanted, opening: Opening) -> Policy:
+    del opening  # It cannot run code.
+    from rigid.policies.onnx import open_onnx
+
+    return open_onnx(Path(place), wanted)
+
+
+def _sb3(place: str, wanted: Wanted, opening: Opening) -> Policy:
+    from rigid.policies.sb3 import open_sb3
+
+    return open_sb3(Path(place), wanted, opening)
+
+
+def _torchscript(place: str, wanted: Wanted, opening: Opening) -> Policy:
+    from rigid.policies.torchscript import open_torchscript
+
+    return open_torchscript(Path(place), wanted, opening)
+
+
+def _python(place: str, wanted: Wanted, opening: Opening) -> Policy:
+    del opening  # The user named it.
+    from rigid.policies.python import open_python
+
+    return open_python(place, wanted)
+
+
+def _exec(place: str, wanted: Wanted, opening: Opening) -> Policy:
+    del opening  # The user named it.
+    from rigid.policies.command import open_command
+
+    return open_command(place, wanted)
+
+
+_KINDS: Mapping[str, _Kind] = {
+    "onnx": _Kind("FILE.onnx", _onnx, runs_code=False),
+    "sb3": _Kind("sb3:FILE.zip", _sb3, runs_code=True),
+    "torchscript": _Kind("torchscript:FILE.pt", _torchscript, runs_code=True),
+    "python": _Kind("python:MODULE:FACTORY", _python, runs_code=True),
+    "exec": _Kind("exec:COMMAND", _exec, runs_code=True),
+}
+"""What may stand before a colon, `builtin` aside. Libraries are imported where they are used."""
 
 
 def builtin_names(task: Task, agent: Agent) -> tuple[str, ...]:
@@ -97,6 +176,8 @@ def policy_hash(policy: Policy | Path | str) -> str:
     if isinstance(policy, PassivePolicy):
         sizes = json_text({"kind": _PASSIVE, **asdict(policy)})
         return hashlib.sha256(sizes.encode()).hexdigest()
+    if isinstance(policy, Fingerprinted):
+        return policy.fingerprint()
     stored = load_native(policy).policy if isinstance(policy, Path | str) else policy
     if not isinstance(stored, NativePolicy):
         raise TypeError(f"a {type(stored).__name__} has no weights to hash")
@@ -115,30 +196,46 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
     if name in brought:
         return brought[name]
     with resources.as_file(BUNDLED / task.name / name) as directory:
-        return _load_directory(directory, _BUILTIN + name, task, agent)
+        return _load_directory(directory, Wanted(_BUILTIN + name, agent, task))
 
 
-def _load_directory(directory: Path, spec: str, task: Task, agent: Agent) -> NativePolicy:
+@contextmanager
+def native_directory(spec: str, task: Task) -> Iterator[Path | None]:
+    """Where a policy that `load_policy` takes lies in the native format; None if it does not."""
+    if not spec.startswith(_BUILTIN):
+        yield Path(spec) if (Path(spec) / CARD_FILE).is_file() else None
+        return
+    entry = BUNDLED / task.name / spec.removeprefix(_BUILTIN)
+    if not (entry / CARD_FILE).is_file():
+        yield None
+        return
+    with resources.as_file(entry) as directory:
+        yield directory
+
+
+def _load_directory(directory: Path, wanted: Wanted) -> NativePolicy:
     policy, card = load_native(directory)
-    if card.agent != agent:
-        raise UserError(f"{agent} {spec!r} is a policy of the {card.agent}: choose a {agent}'s")
-    trained_for = card.task.get("name")
-    if trained_for != task.name:
-        raise UserError(
-            f"{agent} {spec!r} was trained for task {trained_for!r}, not {task.name!r}: "
-            "choose a policy of this task"
-        )
+    check_made_for(wanted, card.agent, card.task.get("name"))
     return policy
+
+
+def _check_unused(opening: Opening, wanted: Wanted) -> None:
+    """Refuses what would be ignored: a robot without its normaliser is another robot."""
+    for option, given in (("vecnormalize", opening.vecnormalize), ("frames", opening.frames > 1)):
+        if given:
+            raise UserError(f"--{option} is for sb3:FILE.zip, but the robot is {wanted.spec!r}")
 
 
 def _why_unknown(spec: str, task: Task, agent: Agent) -> str:
     names = builtin_names(task, agent)
+    forms = (f"{_BUILTIN}NAME", "a native policy directory", *(k.form for k in _KINDS.values()))
+    known = f"give {', '.join(forms[:-1])} or {forms[-1]}"
     kind, colon, _ = spec.partition(":")
-    if colon or spec.endswith(".onnx"):
-        return f"is of kind {kind if colon else 'onnx'!r}, but this version takes {_KINDS}"
+    if colon:
+        return f"is of kind {kind!r}, which is unknown: {known}"
     if spec in names:
         return f"is no directory; did you mean '{_BUILTIN}{spec}'?"
-    return f"is no directory: give {_KINDS}"
+    return f"is no directory: {known}"
 
 
 def _suggestion(name: str, names: tuple[str, ...]) -> str:

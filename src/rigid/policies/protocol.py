@@ -36,3 +36,12 @@ class Policy(Protocol):
             rng: Source of the action noise; None asks for the mean action.
         """
         ...
+
+
+@runtime_checkable
+class Fingerprinted(Protocol):
+    """A policy of another library's format, which can say what it is; optional."""
+
+    def fingerprint(self) -> str:
+        """SHA-256 over all that decides how it acts: part of 'same settings'."""
+        ...

@@ -14,6 +14,7 @@ from pathlib import Path
 from string import Template
 from urllib.parse import quote
 
+from rigid.compute.return_range import spoken_range
 from rigid.compute.run_directory import RunDirectory
 from rigid.frontier.comparison import numbers_of
 from rigid.frontier.intervals import Interval
@@ -39,14 +40,14 @@ def comparison_page(standings: Sequence[Standing], notes: Sequence[str], *, at: 
     names = [standing.method.name for standing in standings]
     stamps = dict.fromkeys(str(f.data["stamp"]) for f in everyone if f.data.get("stamp"))
     return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        title=_safe(f"{_listed(names)} on {everyone[0].data['task']} · RIGID"),
-        facts=_safe(f"{len(everyone)} robots, preset {everyone[0].data['preset']}"),
-        stamp="".join(f'<p class="stamp">{_safe(stamp)}</p>' for stamp in stamps),
+        title=safe(f"{_listed(names)} on {everyone[0].data['task']} · RIGID"),
+        facts=safe(f"{len(everyone)} robots, preset {everyone[0].data['preset']}"),
+        stamp="".join(f'<p class="stamp">{safe(stamp)}</p>' for stamp in stamps),
         curves=inline_curves({s.method.name: s.robots for s in standings}),
-        caption=_safe(_caption(standings)),
+        caption=safe(_caption(standings)),
         table=_methods(standings),
         differences=_differences(standings),
-        notes="".join(f"<li>{_safe(note)}.</li>" for note in notes),
+        notes="".join(f"<li>{safe(note)}.</li>" for note in notes),
         robots=_robots(standings, at),
     )
 
@@ -58,7 +59,8 @@ def _caption(standings: Sequence[Standing]) -> str:
     )  # fmt: skip
     return (
         f"Mean of the frontiers of each row of the table ({behind}) and the adversaries found. "
-        "Lower is more robust."
+        "Lower is more robust. Adversarialness is "
+        f"{spoken_range(standings[0].robots[0].data)}, the same for all."
     )
 
 
@@ -74,7 +76,7 @@ def _methods(standings: Sequence[Standing]) -> str:
     for standing in standings:
         numbers = standing.method.numbers
         rows.append([
-            _safe(standing.method.name), _cell(numbers["auc"]), _cell(standing.success, ".2f"),
+            safe(standing.method.name), _cell(numbers["auc"]), _cell(standing.success, ".2f"),
             *([_cell(standing.unseen, ".2f")] if asked else []),
             *(_cell(numbers[key]) for key in ("worst_at", "hull_at", "auc_natural")),
             str(standing.method.robots), str(standing.method.seeds),
@@ -87,14 +89,14 @@ def _differences(standings: Sequence[Standing]) -> str:
         return ""
     rows = [
         [
-            _safe(standing.method.name),
+            safe(standing.method.name),
             *(_cell(standing.method.against[key], "+.3f") for key in TITLES),
         ]
         for standing in standings
         if standing.method.against is not None
     ]
     heads = ["method", *TITLES.values()]
-    title = f"<h2>Minus {_safe(standings[0].method.name)}</h2>"
+    title = f"<h2>Minus {safe(standings[0].method.name)}</h2>"
     return f'{title}\n<div class="wide">{_table(heads, rows)}</div>'
 
 
@@ -107,8 +109,8 @@ def _robots(standings: Sequence[Standing], at: Path) -> str:
             data, numbers = frontier.data, numbers_of(frontier)
             success = data["canonical"]["success"]
             rows.append([
-                _safe(f"{name} {number}" if several else name), _safe(str(data["robot"])),
-                _safe(str(data.get("human", _UNKNOWN))), f"{numbers['auc'].mean:.3f}",
+                safe(f"{name} {number}" if several else name), safe(str(data["robot"])),
+                safe(str(data.get("human", _UNKNOWN))), f"{numbers['auc'].mean:.3f}",
                 _UNKNOWN if success is None else f"{success:.2f}",
                 *(f"{numbers[key].mean:.3f}" for key in keys[1:]), _link(frontier, at),
             ])  # fmt: skip
@@ -123,7 +125,7 @@ def _link(frontier: Frontier, at: Path) -> str:
     if not report.exists():
         return "none"
     way = os.path.relpath(report.resolve(), at.resolve().parent)
-    return f'<a href="{_safe(quote(Path(way).as_posix()))}">report.html</a>'
+    return f'<a href="{safe(quote(Path(way).as_posix()))}">report.html</a>'
 
 
 def _table(heads: Iterable[str], rows: Iterable[Sequence[str]], text: Sequence[int] = ()) -> str:
@@ -136,7 +138,7 @@ def _table(heads: Iterable[str], rows: Iterable[Sequence[str]], text: Sequence[i
         )
         return f"<tr>{''.join(marked)}</tr>"
 
-    head = line(map(_safe, heads), "th")
+    head = line(map(safe, heads), "th")
     body = "\n".join(line(row, "td") for row in rows)
     return f"<table><thead>{head}</thead>\n<tbody>\n{body}\n</tbody></table>"
 
@@ -163,6 +165,6 @@ def _listed(names: Sequence[str]) -> str:
     return f"{', '.join(names[:3])} and {len(names) - 3} others"
 
 
-def _safe(text: str) -> str:
+def safe(text: str) -> str:
     """Any text as HTML, for content and for attributes in quotes; lone surrogates included."""
     return html.escape(text).encode("ascii", "xmlcharrefreplace").decode("ascii")

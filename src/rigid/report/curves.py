@@ -54,7 +54,7 @@ def overlay(axis: Any, methods: Mapping[str, Sequence[Frontier]]) -> None:
         for number, robots in enumerate(methods.values())
     ]
     axis.set_xlabel("naturalness (referee; 1: cannot be told from canonical)")
-    axis.set_ylabel("adversarialness")
+    axis.set_ylabel(_harm([robot for robots in methods.values() for robot in robots]))
     axis.set_xlim(0, 1.005)
     axis.set_ylim(0, 1)
     if len(lines) <= _INSIDE:
@@ -63,6 +63,12 @@ def overlay(axis: Any, methods: Mapping[str, Sequence[Frontier]]) -> None:
         legend = axis.figure.legend(lines, list(methods), fontsize=7, loc="outside right upper")
     for text in legend.get_texts():
         text.set_parse_math(False)  # Names of others: a dollar is a dollar.
+
+
+def _harm(robots: Sequence[Frontier]) -> str:
+    """The y axis with the returns that its ends stand for; they are the same for all robots."""
+    worst, best = robots[0].data["return_range"]
+    return f"adversarialness (0: return {best:g}, 1: return {worst:g})"
 
 
 def _method(

@@ -11,6 +11,7 @@ import numpy as np
 from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier, load_frontier, measured_points
+from rigid.policies.opening import SAFE, Opening
 from rigid.report.gather import episode, stored_episodes
 from rigid.report.motion import Shown, read_motion
 from rigid.tasks.protocol import Task
@@ -138,7 +139,7 @@ def title_of(point: Mapping[str, Any]) -> str:
     return f"{point['id']} · λ {weight} · {numbers}"
 
 
-def played(task: Task, robot: str, human: str, seed: int) -> Shown:
+def played(task: Task, robot: str, human: str, seed: int, opening: Opening = SAFE) -> Shown:
     """A new episode of any pair: that of `rigid evaluate --episodes 1` with the same seed.
 
     Args:
@@ -146,6 +147,7 @@ def played(task: Task, robot: str, human: str, seed: int) -> Shown:
         robot: As `--robot` names it; acts by its mean.
         human: As `--human` names it; samples.
         seed: Start and noise come from it.
+        opening: How their files are opened.
 
     Raises:
         UserError: A policy does not fit, or the task's episodes cannot be drawn.
@@ -156,11 +158,11 @@ def played(task: Task, robot: str, human: str, seed: int) -> Shown:
 
     rng = np.random.default_rng([seed, 0])
     starts = rng.integers(2**31, size=1)
-    actor = policy_actor(load_policy(human, task=task, agent="human"), 1, rng)
+    acting = load_policy(robot, task=task, agent="robot", opening=opening)
+    partner = load_policy(human, task=task, agent="human", opening=opening)
+    actor = policy_actor(partner, 1, rng)
     snapshots: list[np.ndarray] = []
-    episodes = play_with(
-        task, load_policy(robot, task=task, agent="robot"), actor, starts, snapshots=snapshots
-    )
+    episodes = play_with(task, acting, actor, starts, snapshots=snapshots)
     motion = read_motion(scene_of(task), task.replay(np.stack(snapshots)[:, 0]))
     outcome = task.outcome_names[int(episodes.summary.outcome[0])]
     ending = _ending(float(episodes.returns[0]), outcome)

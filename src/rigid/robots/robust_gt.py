@@ -31,6 +31,7 @@ from rigid.learning.personalisation import (
 from rigid.learning.ppo import PPOSettings
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import load_policy, policy_hash
+from rigid.policies.opening import NAMED_BY_FILE
 from rigid.policies.protocol import Policy
 from rigid.robots.storing import (
     Checkpoint,
@@ -139,7 +140,9 @@ def take_lesson(
             f"robot {frontier.data['robot']!r} is a {type(measured).__name__}, which cannot go on "
             "learning here: robust-gt takes robots of `rigid train vanilla`, gleave or robust-gt"
         )
-    human = load_policy(str(frontier.data["human"]), task=task, agent="human")
+    human = load_policy(
+        str(frontier.data["human"]), task=task, agent="human", opening=NAMED_BY_FILE
+    )
     assert isinstance(human, GaussianPolicy)  # Nobody else was searched from.
     chosen = [
         (run.directory, point)

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
+from rigid.compute.return_range import stored_range
 from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.compute.subject import Subject
 from rigid.frontier.result import load_frontier
@@ -72,7 +73,8 @@ def train_in_rounds(
     )  # Refuses what cannot be learned from, before any work.
     refuse_finished(out)
     open_training(out, between)
-    human = str(load_frontier(run).data["human"])
+    measured = load_frontier(run).data
+    human = str(measured["human"])
     teach = partial(
         train_robust_gt, settings=settings, seed=seed, canonical_episodes=canonical_episodes
     )
@@ -84,7 +86,8 @@ def train_in_rounds(
                 teach(lesson, out=made, report=report)
         with searching(name) as listener:
             measure_robot(
-                Subject(lesson.task, str(made), human), preset, out=searched,
+                Subject(lesson.task, str(made), human, return_range=stored_range(measured)),
+                preset, out=searched,
                 seeds=seeds_not_used(runs, len(preset.seeds)), listener=listener,
             )  # fmt: skip
         runs.append(searched)

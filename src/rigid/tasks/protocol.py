@@ -20,12 +20,18 @@ from rigid.policies.protocol import Policy
 
 @dataclass(frozen=True)
 class AgentSpec:
-    """What one agent sees and does; actions are reals in [-1, 1]."""
+    """What one agent sees and does; actions are reals in [-1, 1].
+
+    A discrete action of n choices is n reals, one score a choice, of which the task takes the
+    largest: so a Gaussian policy learns it as it learns any other.
+    """
 
     observation_size: int
     action_size: int
     observation_names: tuple[str, ...] = ()
     """A name for each observed number, in order; empty when the task declares none."""
+    choices: tuple[int, ...] = ()
+    """Numbers of choices of the discrete actions side by side; empty where actions are reals."""
 
 
 class Step(NamedTuple):
@@ -127,6 +133,22 @@ class BringsPolicies(Protocol):
 
 
 @runtime_checkable
+class Paced(Protocol):
+    """A task that says how long a control step takes; optional."""
+
+    control_period: float
+    """[s]."""
+
+
+@runtime_checkable
+class NamesUnits(Protocol):
+    """A task that says what its features are measured in; optional."""
+
+    feature_units: Mapping[str, str]
+    """By the feature's name, such as rad or m/s; features without a unit are left out."""
+
+
+@runtime_checkable
 class VariesHumans(Protocol):
     """A task that shows the robot how the human moves, and whose humans can vary; optional."""
 
@@ -155,6 +177,11 @@ class DrawsFeatures(Protocol):
             None where these features do not tell the pose.
         """
         ...
+
+
+def control_period(task: Task) -> float:
+    """How long a control step of a task takes [s]; 0.1 where it says nothing, as in the paper."""
+    return task.control_period if isinstance(task, Paced) else 0.1
 
 
 def adversarialness(

@@ -1,4 +1,8 @@
-"""Tasks by name: RIGID's own, and those of installed packages (entry points `rigid.tasks`)."""
+"""Tasks by name.
+
+RIGID's own, those of installed packages (entry points `rigid.tasks`), and bridges to environments
+of others (`pettingzoo:`, `gymnasium:`, `exec:`).
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,7 @@ import difflib
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields
+from functools import partial
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, NamedTuple
 
@@ -27,7 +32,8 @@ def make_task(name: str, **parameters: Any) -> Task:
     """The task called `name`.
 
     Args:
-        name: One of `task_names()`.
+        name: One of `task_names()`, or `pettingzoo:MODULE:FACTORY`, `gymnasium:MODULE:FACTORY` or
+            `exec:COMMAND` (docs/tasks.md).
         parameters: What the task lets a study vary; `Task.describe()["parameters"]` is accepted.
 
     Raises:
@@ -39,12 +45,9 @@ def make_task(name: str, **parameters: Any) -> Task:
         >>> make_task("itch-scraching")
         Traceback (most recent call last):
         rigid.errors.UserError: unknown task 'itch-scraching', did you mean 'itch-scratching'?
-            Tasks: analytic/hand-tracking, analytic/offset-catch, itch-scratching
+            Tasks: analytic/hand-tracking, analytic/offset-catch, feeding, itch-scratching, ...
     """
-    names = task_names()
-    if name not in names:
-        raise UserError(_unknown("unknown task", name, names))
-    recipe = _BUILTIN[name]() if name in _BUILTIN else _installed(_entry_points()[name])
+    recipe = _recipe(name)
     if recipe.parameters is not None:
         _check_known(f"{name}: unknown parameter", parameters, recipe.parameters)
     return recipe.build(**parameters)
@@ -62,6 +65,19 @@ def task_from_description(description: Mapping[str, Any]) -> Task | None:
         return make_task(name, **parameters)
     except UserError:
         return None
+
+
+def _recipe(name: str) -> _Recipe:
+    if name in _BUILTIN:
+        return _BUILTIN[name]()
+    kind, colon, _ = name.partition(":")
+    if colon and kind in _BRIDGES:
+        return _BRIDGES[kind](name)
+    names = task_names()
+    if name not in names:
+        bridges = ", ".join(f"{bridge}:…" for bridge in _BRIDGES)
+        raise UserError(f"{_unknown('unknown task', name, names)}, {bridges}")
+    return _installed(_entry_points()[name])
 
 
 def task_names() -> tuple[str, ...]:
@@ -86,17 +102,38 @@ def _itch_scratching() -> _Recipe:
     from rigid.tasks.itch_scratching.task import ItchScratching
 
     def build(**parameters: Any) -> Task:
-        if isinstance(weights := parameters.get("weights"), Mapping):
-            _check_known("itch-scratching: unknown weight", weights, _fields(RewardWeights))
-            parameters["weights"] = RewardWeights(**weights)
         if isinstance(limbs := parameters.get("itch_limbs"), list):  # As JSON has it.
             parameters["itch_limbs"] = tuple(limbs)
-        try:
-            return ItchScratching(ItchScratchingParameters(**parameters))
-        except TypeError as error:
-            raise UserError(f"itch-scratching: a parameter has the wrong type: {error}") from error
+        return ItchScratching(ItchScratchingParameters(**parameters))
 
-    return _Recipe(build, _fields(ItchScratchingParameters))
+    return _assistive("itch-scratching", ItchScratchingParameters, RewardWeights, build)
+
+
+def _feeding() -> _Recipe:
+    from rigid.tasks.feeding.parameters import FeedingParameters, RewardWeights
+    from rigid.tasks.feeding.task import Feeding
+
+    def build(**parameters: Any) -> Task:
+        return Feeding(FeedingParameters(**parameters))
+
+    return _assistive("feeding", FeedingParameters, RewardWeights, build)
+
+
+def _assistive(
+    name: str, parameters: type[Any], weights: type[Any], build: Callable[..., Task]
+) -> _Recipe:
+    """The recipe of a task with reward weights, which may come as JSON has them."""
+
+    def checked(**given: Any) -> Task:
+        if isinstance(weighed := given.get("weights"), Mapping):
+            _check_known(f"{name}: unknown weight", weighed, _fields(weights))
+            given["weights"] = weights(**weighed)
+        try:
+            return build(**given)
+        except TypeError as error:
+            raise UserError(f"{name}: a parameter has the wrong type: {error}") from error
+
+    return _Recipe(checked, _fields(parameters))
 
 
 def _offset_catch() -> _Recipe:
@@ -114,9 +151,38 @@ def _hand_tracking() -> _Recipe:
 _BUILTIN: dict[str, Callable[[], _Recipe]] = {
     "analytic/hand-tracking": _hand_tracking,
     "analytic/offset-catch": _offset_catch,
+    "feeding": _feeding,
     "itch-scratching": _itch_scratching,
 }
 """Called only for the task that is asked for, since MuJoCo takes its time to load."""
+
+
+def _pettingzoo(name: str) -> _Recipe:
+    from rigid.tasks.bridges.pettingzoo import pettingzoo_task
+
+    known = ("human_agent", "robot_agent", "horizon")
+    return _Recipe(partial(pettingzoo_task, name), known)
+
+
+def _gymnasium(name: str) -> _Recipe:
+    from rigid.tasks.bridges.gymnasium import gymnasium_task
+
+    return _Recipe(partial(gymnasium_task, name), ("horizon",))
+
+
+def _command(name: str) -> _Recipe:
+    from rigid.tasks.bridges.command import open_command_task
+
+    text = name.partition(":")[2]
+    return _Recipe(lambda **parameters: open_command_task(text, parameters), None)
+
+
+_BRIDGES: dict[str, Callable[[str], _Recipe]] = {
+    "exec": _command,
+    "gymnasium": _gymnasium,
+    "pettingzoo": _pettingzoo,
+}
+"""By what stands before the first colon of a task's name."""
 
 
 def _fields(kind: type[Any]) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rigid.tasks.bodies import human
-from rigid.tasks.bodies.human import BODIES
+from rigid.tasks.bodies.sizes import BODIES
 from tests.tasks.scripted import posed
 
 JOINTS = ("right_upper_arm", "right_forearm", "right_hand")

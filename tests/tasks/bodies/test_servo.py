@@ -7,7 +7,7 @@ import pytest
 from rigid.tasks.bodies import human, jaco
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
 from rigid.tasks.itch_scratching.scene import build_spec
-from rigid.tasks.itch_scratching.world import TARGET_AHEAD
+from rigid.tasks.physics.stepping import TARGET_AHEAD
 from tests.tasks.scripted import posed
 
 JOINTS = human.ARM_JOINTS + jaco.JOINT_NAMES

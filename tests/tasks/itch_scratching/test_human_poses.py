@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rigid.naturalness.features import choose_features, seen_through
-from rigid.tasks.bodies.human import ARM_JOINTS, BODIES
+from rigid.tasks.bodies.human import ARM_JOINTS
+from rigid.tasks.bodies.sizes import BODIES
 from rigid.tasks.itch_scratching.replay import human_poses
 from rigid.tasks.protocol import DrawsFeatures
 

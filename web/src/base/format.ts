@@ -10,6 +10,14 @@ export function fixed(value: number | null | undefined, digits = 2): string {
   return value < 0 && Number(text) !== 0 ? MINUS + text : text;
 }
 
+/** A number of any size in at most four digits: −270, 0.025, 1.2·10⁶. */
+export function general(value: number | null): string {
+  if (value === null || !Number.isFinite(value)) return UNKNOWN;
+  const short = Number(Math.abs(value).toPrecision(4));
+  const text = short !== 0 && (short < 1e-4 || short >= 1e6) ? scientific(short) : String(short);
+  return value < 0 && short !== 0 ? MINUS + text : text;
+}
+
 /** λ as printed beside a point: 0, 0.01, 1, 30, ∞. */
 export function lambdaText(lambda: number | null): string {
   if (lambda === null) return UNKNOWN;

@@ -1,7 +1,7 @@
 /** All that was measured of the chosen human. */
 import { h, type Child } from "../base/dom.js";
 import { count, fixed, lambdaText, percent, UNKNOWN } from "../base/format.js";
-import { text } from "../base/read.js";
+import { dict, number, text } from "../base/read.js";
 import type { Signal } from "../base/signal.js";
 import { outcomeBar } from "../chart/outcomes.js";
 import type { Payload, Point } from "./payload.js";
@@ -34,8 +34,8 @@ function effect(point: Point, payload: Payload, physical: boolean): HTMLElement 
     entry("adversarialness", h("b", {}, fixed(point.adversarialness)), `canonical ${fixed(canonical.adversarialness)}`),
     entry("return", fixed(point.return, 1), `canonical ${fixed(canonical.return, 1)}`),
     entry("success", percent(point.success), `canonical ${percent(canonical.success)}`),
-    entry("peak force", `${fixed(point.peakForce, 1)} N`, caveat),
-    entry("impulse", `${fixed(point.impulse, 1)} N·s`, caveat),
+    point.peakForce !== null && entry("peak force", `${fixed(point.peakForce, 1)} N`, caveat),
+    point.impulse !== null && entry("impulse", `${fixed(point.impulse, 1)} N·s`, caveat),
     point.verdict !== null && entry("a fresh robot", point.verdict, `regret ${fixed(point.regret)}`));
 }
 
@@ -50,6 +50,13 @@ function naturalness(point: Point, payload: Payload): HTMLElement {
       h("tbody", {}, ...rows.map(([name, value]) =>
         h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, bar(value)), h("td", { class: "number" }, fixed(value)))))),
     h("p", { class: "note" }, axisSentence(payload)));
+}
+
+/** Outcomes of a task that has its own names for them. */
+function otherOutcomes({ raw }: Point): HTMLElement {
+  const shares = Object.entries(dict(raw["outcomes"])).map(([name, share]) => [name, number(share)] as const);
+  if (!shares.length) return h("p", { class: "empty" }, "Outcomes were not recorded.");
+  return h("dl", { class: "entries" }, ...shares.map(([name, share]) => entry(name.replaceAll("_", " "), percent(share))));
 }
 
 /** More faulted episodes than this bar a point from the frontier. */
@@ -73,7 +80,7 @@ function body(point: Point, payload: Payload, physical: boolean): Node[] {
       h("section", {}, h("h3", {}, "How natural"), naturalness(point, payload)),
       h("section", {}, h("h3", {}, "How bad"), effect(point, payload, physical)),
       h("section", {}, h("h3", {}, "How episodes ended"),
-        point.outcomes ? outcomeBar(point.outcomes) : h("p", { class: "empty" }, "Outcomes were not recorded."),
+        point.outcomes ? outcomeBar(point.outcomes) : otherOutcomes(point),
         h("p", { class: "note" }, `${count(point.episodes)} fresh episodes`)),
       !isPassive(point) && h("section", {}, h("h3", {}, "How it was found"), searched(point))),
   ];

@@ -2,12 +2,12 @@
 import { frontierChart, type FrontierData, type FrontierMark } from "../chart/frontier.js";
 import { lambdaGradient, lambdaRange, lambdaShare, lambdaStyle } from "../chart/palette.js";
 import { caption, h, s } from "../base/dom.js";
-import { fixed, lambdaText } from "../base/format.js";
-import { interval, text } from "../base/read.js";
+import { fixed, general, lambdaText } from "../base/format.js";
+import { interval } from "../base/read.js";
 import type { Signal } from "../base/signal.js";
 import { seedsOf } from "./measures.js";
 import type { Payload, Point } from "./payload.js";
-import { axisSentence, isPassive, label, lines } from "./words.js";
+import { axisSentence, isPassive, label, lines, rangeSource } from "./words.js";
 
 function markOf(point: Point, range: readonly [number, number]): FrontierMark[] {
   const { naturalness: x, adversarialness: y } = point;
@@ -64,7 +64,7 @@ function key(payload: Payload, range: readonly [number, number]): HTMLElement {
 function frontierCaption(payload: Payload): HTMLElement {
   const range = interval(payload.frontier["return_range"]);
   const scale = range
-    ? ` Adversarialness 0 and 1 stand for returns of ${fixed(range[1], 0)} and ${fixed(range[0], 0)} (range: ${text(payload.frontier["range_source"], "unstated")}).`
+    ? ` Adversarialness 0 and 1 stand for returns of ${general(range[1])} and ${general(range[0])} (${rangeSource(payload.frontier)}).`
     : "";
   return caption(
     `Each mark is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale}`,

@@ -20,8 +20,14 @@ function columnOf(point: Point): OutcomeColumn[] {
 
 /** How episodes ended for every human. */
 export function endings(payload: Payload, chosen: Signal<string | null>): HTMLElement {
+  const columns = payload.points.flatMap(columnOf);
+  if (!columns.length) {
+    return h("section", { class: "band-section" },
+      h("h2", {}, "How episodes ended"),
+      h("p", { class: "empty" }, "This task has outcomes of its own: each human's stand above, where it is chosen."));
+  }
   const host = h("div", { class: "chart" });
-  outcomeChart(host, payload.points.flatMap(columnOf), chosen);
+  outcomeChart(host, columns, chosen);
   const key = OUTCOMES.map(([kind, name]) => h("li", {}, h("span", { class: `swatch ${kind}` }), name));
   return h("section", { class: "band-section" },
     h("h2", {}, "How episodes ended"),

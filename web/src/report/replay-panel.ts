@@ -77,7 +77,9 @@ export function replayPanel(
 ): HTMLElement {
   if (!payload.replays.stored || !payload.scene) {
     return h("section", { class: "replay", "aria-label": "Replay" },
-      h("p", { class: "empty" }, "Replays were not stored with this frontier, so there is no motion to show."));
+      h("p", { class: "empty" }, payload.scene
+        ? "Replays were not stored with this frontier, so there is no motion to show."
+        : "This report knows nothing to draw of this task, so there is no motion to show; the numbers tell all there is."));
   }
   const clock = new Clock();
   const which = new Signal<Which>("worst");

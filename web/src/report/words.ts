@@ -1,6 +1,7 @@
 /** How points are named in tooltips, labels and captions. */
 import { fixed, lambdaText, percent } from "../base/format.js";
 import { headlineLevel } from "./measures.js";
+import { dict, text, type Dict } from "../base/read.js";
 import type { Payload, Point } from "./payload.js";
 
 const NAMES: Record<string, string> = {
@@ -47,6 +48,16 @@ export function levelText(name: string): string {
   if (!match) return name;
   const span = match[2] ? `${match[2]}-step windows` : "single steps";
   return `${span}, κ = ${match[3] ?? ""}`;
+}
+
+/** Where the range of adversarialness comes from: `range_source` of frontier.json. */
+export function rangeSource(frontier: Dict): string {
+  const source = text(frontier["range_source"]);
+  const file = dict(frontier["range_file"]);
+  if (source === "task") return "the task's range";
+  if (source === "option") return "a range given by the user";
+  if (source !== "calibrated") return `range: ${source || "source unknown"}`;
+  return `calibrated range, ${text(file["name"], "unknown file")} ${text(file["sha256"]).slice(0, 8)}`.trim();
 }
 
 /** What the axis lets pass: said wherever naturalness is shown. */

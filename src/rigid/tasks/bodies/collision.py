@@ -24,16 +24,19 @@ class Role(IntFlag):
     ROBOT = 16  # Links near the robot's base.
     WRIST = 32  # Forearm, wrist and hand of the robot.
     TOOL = 64
+    HEAD = 128  # A head that moves; never meets its own trunk.
 
 
+_PERSON = Role.ARM | Role.SHOULDER | Role.TRUNK | Role.HEAD
 _AFFINITY = {
     Role.ARM: Role.TRUNK | Role.CHAIR,
     Role.SHOULDER: Role.NONE,
     Role.TRUNK: Role.NONE,
     Role.CHAIR: Role.NONE,
-    Role.ROBOT: Role.ARM | Role.SHOULDER | Role.TRUNK | Role.CHAIR,
-    Role.WRIST: Role.ARM | Role.SHOULDER | Role.TRUNK | Role.CHAIR | Role.ROBOT,
-    Role.TOOL: Role.ARM | Role.SHOULDER | Role.TRUNK | Role.CHAIR | Role.ROBOT,
+    Role.ROBOT: _PERSON | Role.CHAIR,
+    Role.WRIST: _PERSON | Role.CHAIR | Role.ROBOT,
+    Role.TOOL: _PERSON | Role.CHAIR | Role.ROBOT,
+    Role.HEAD: Role.CHAIR,
     Role.NONE: Role.NONE,
 }
 

@@ -9,17 +9,16 @@ joint space; near the seated pose that network never bites.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, TypeVar, cast
+from typing import Literal
 
 import mujoco
 import numpy as np
 
 from rigid.tasks.bodies.collision import Role, assign
 from rigid.tasks.bodies.jaco import Servo, add_servo
+from rigid.tasks.bodies.sizes import BodySize
 
 Limb = Literal["forearm", "upper_arm"]
-_Shape = TypeVar("_Shape", bound=tuple[float, ...])  # A radius, then lengths.
 
 ARM_JOINTS = (
     "pecs_x", "pecs_y", "pecs_z", "shoulder_x", "shoulder_y", "shoulder_z",
@@ -46,88 +45,14 @@ SEATED_POSE_DEG = {"shoulder_x": 30.0, "elbow": -90.0}
 
 TRUNK_PARTS = ("torso", "head", "legs", "right_shoulder")
 """Bodies that no robot should touch: everything but the arms."""
+RESTING_PARTS = ("torso", "legs", "left_arm", "right_arm")
+"""Bodies of a person of whom only the head moves, without it."""
 ARM_PARTS = ("right_upper_arm", "right_forearm", "right_hand", "left_arm")
 
-_SKIN = (0.86, 0.68, 0.56, 1.0)
+SKIN = (0.86, 0.68, 0.56, 1.0)
 _SHIRT = (0.45, 0.56, 0.67, 1.0)
 _TROUSERS = (0.34, 0.37, 0.45, 1.0)
 
-
-@dataclass(frozen=True)
-class BodySize:
-    """Lengths [m] and mass [kg] of one body; `radius_scale` thickens every capsule."""
-
-    chest_height: float
-    chest: tuple[float, float]  # Radius, cylinder length.
-    pecs: tuple[float, float, float]  # Radius, length, offset along x.
-    pecs_up: float
-    neck: tuple[float, float, float, float]  # Radius, length, centre, height over the chest.
-    head: tuple[float, float, float, float]  # Half extents x, y, z and height over the neck.
-    head_center: tuple[float, float]  # Of the ellipsoid in the head's frame: y, z.
-    shoulder_out: float
-    upper_arm: tuple[float, float]  # Radius, length to the elbow.
-    forearm: tuple[float, float]  # Radius, cylinder length; the wrist is one radius further.
-    hand: float
-    waist: tuple[float, float, float]  # Radius, length, drop below the chest.
-    hips: tuple[float, float, float]
-    hip_out: float
-    thigh: tuple[float, float]
-    shin: tuple[float, float]
-    foot: tuple[float, float]
-    mass: float
-
-    def scaled(self, stature: float, girth: float) -> BodySize:
-        """Returns the body with every length times `stature` and every radius times `girth`.
-
-        The chair keeps its height, so the seat-to-shoulder length grows above it. Who is shorter
-        than the reference sits on a cushion, so that the elbow stays above the arm rest (ours).
-        """
-        hip_drop = self.waist[2] + 2 * self.hips[2]
-
-        def sized(shape: _Shape) -> _Shape:
-            radius, *lengths = shape
-            return cast("_Shape", (radius * girth, *(length * stature for length in lengths)))
-
-        return BodySize(
-            chest_height=self.chest_height + max(stature - 1, 0) * hip_drop,
-            chest=sized(self.chest),
-            pecs=sized(self.pecs),
-            pecs_up=self.pecs_up * stature,
-            neck=sized(self.neck),
-            head=self.head[:3] + (self.head[3] * stature,),
-            head_center=self.head_center,
-            shoulder_out=self.shoulder_out * stature,
-            upper_arm=sized(self.upper_arm),
-            forearm=sized(self.forearm),
-            hand=self.hand * girth,
-            waist=sized(self.waist),
-            hips=sized(self.hips),
-            hip_out=self.hip_out * stature,
-            thigh=sized(self.thigh),
-            shin=sized(self.shin),
-            foot=sized(self.foot),
-            mass=self.mass * stature * girth**2,
-        )
-
-
-BODIES: dict[str, BodySize] = {
-    "male": BodySize(
-        chest_height=0.89, chest=(0.127, 0.056), pecs=(0.106, 0.0316, 0.0854), pecs_up=0.07075,
-        neck=(0.060, 0.124, 0.09, 0.1515), head=(0.083, 0.097, 0.116, 0.137),
-        head_center=(-0.029, 0.081), shoulder_out=0.179,
-        upper_arm=(0.043, 0.279), forearm=(0.033, 0.257), hand=0.043,
-        waist=(0.1205, 0.049, 0.156), hips=(0.1335, 0.094, 0.08125), hip_out=0.089,
-        thigh=(0.080, 0.424), shin=(0.050, 0.403), foot=(0.050, 0.215), mass=78.4,
-    ),
-    "female": BodySize(
-        chest_height=0.86, chest=(0.127, 0.010), pecs=(0.092, 0.0281, 0.0759), pecs_up=0.066,
-        neck=(0.050, 0.121, 0.09, 0.132), head=(0.077, 0.0895, 0.1085, 0.120),
-        head_center=(-0.0235, 0.0735), shoulder_out=0.159,
-        upper_arm=(0.0355, 0.264), forearm=(0.027, 0.234), hand=0.0355,
-        waist=(0.110, 0.009, 0.150), hips=(0.127, 0.117, 0.075), hip_out=0.092,
-        thigh=(0.0775, 0.391), shin=(0.045, 0.367), foot=(0.045, 0.195), mass=62.5,
-    ),
-}  # fmt: skip
 
 # Shares of the body mass carried by the moving links (Assistive Gym).
 _MASS_SHARE = {"pecs": 0.05, "upper_arm": 0.033, "forearm": 0.019, "hand": 0.0065}
@@ -153,7 +78,7 @@ def start_angles() -> np.ndarray:
 def add_seated_human(
     spec: mujoco.MjSpec, size: BodySize, *, servo: Servo, limit_scale: float = 1.0
 ) -> None:
-    """Adds the seated body: fixed trunk, head, legs and left arm; right arm with 10 servos.
+    """Adds the seated body: fixed torso, head, legs and left arm; right arm with 10 servos.
 
     Args:
         spec: The scene under construction.
@@ -161,11 +86,59 @@ def add_seated_human(
         servo: Drive of the arm; its torque caps are in the order of `ARM_JOINTS`.
         limit_scale: Impairment `limits`: factor on the arm's joint range, in (0, 1].
     """
-    chest = np.array([0.0, 0.03, size.chest_height])
-    _add_trunk(spec, size, chest)
+    chest = chest_origin(size)
+    _add_torso(spec, size, chest)
+    head = spec.worldbody.add_body(name="head")
+    neck = chest + (0, 0, size.neck[3])
+    add_neck(head, size, neck, Role.TRUNK)
+    skull = head.add_geom(
+        name="head",
+        type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+        size=size.head[:3],
+        pos=neck + (0, 0, size.head[3]) + (0, *size.head_center),  # Of the original's head mesh.
+        rgba=SKIN,
+        mass=0.0,
+    )
+    assign(skull, Role.TRUNK)
     _add_legs(spec, size, chest)
-    _add_left_arm(spec, size, chest)
+    _add_still_arm(spec, size, chest, "left", 1)
     _add_right_arm(spec, size, chest, servo, arm_limits(limit_scale))
+
+
+def add_resting_body(spec: mujoco.MjSpec, size: BodySize) -> None:
+    """Adds the seated body without its head, all of it fixed: `RESTING_PARTS`."""
+    chest = chest_origin(size)
+    _add_torso(spec, size, chest)
+    radius, length, out = size.pecs
+    right = _across(chest + (-out, 0, size.pecs_up), length)
+    _capsule(spec.body("torso"), "right_pecs", right, radius, Role.TRUNK, _SHIRT)
+    _add_legs(spec, size, chest)
+    _add_still_arm(spec, size, chest, "left", 1)
+    _add_still_arm(spec, size, chest, "right", -1)
+
+
+def chest_origin(size: BodySize) -> np.ndarray:
+    """Where the chest is [m], world frame: the frame in which the human sees."""
+    return np.array([0.0, 0.03, size.chest_height])
+
+
+def add_neck(
+    body: mujoco.MjsBody, size: BodySize, joint: np.ndarray, role: Role, share: float = 0.0
+) -> None:
+    """Adds the neck's capsule above its `joint` [m], in the frame of `body`.
+
+    Args:
+        body: Of the neck.
+        size: Of the person.
+        joint: Where the neck leaves the trunk.
+        role: Whom it may touch.
+        share: Of the body's mass; 0 where it does not move.
+    """
+    radius, length, center, _ = size.neck
+    up = np.array([0, 0, 1.0])
+    middle = joint + center * up
+    ends = (middle - length / 2 * up, middle + length / 2 * up)
+    _capsule(body, "neck", ends, radius, role, SKIN).mass = share * size.mass
 
 
 def _capsule(
@@ -192,7 +165,7 @@ def _across(center: np.ndarray, length: float) -> tuple[np.ndarray, np.ndarray]:
     return center - half, center + half
 
 
-def _add_trunk(spec: mujoco.MjSpec, size: BodySize, chest: np.ndarray) -> None:
+def _add_torso(spec: mujoco.MjSpec, size: BodySize, chest: np.ndarray) -> None:
     torso = spec.worldbody.add_body(name="torso")
     up = np.array([0, 0, 1.0])
     _capsule(torso, "chest", _across(chest, size.chest[1]), size.chest[0], Role.TRUNK, _SHIRT)
@@ -203,22 +176,6 @@ def _add_trunk(spec: mujoco.MjSpec, size: BodySize, chest: np.ndarray) -> None:
     _capsule(torso, "waist", _across(waist, size.waist[1]), size.waist[0], Role.TRUNK, _SHIRT)
     hips = waist - 2 * size.hips[2] * up
     _capsule(torso, "hips", _across(hips, size.hips[1]), size.hips[0], Role.TRUNK, _TROUSERS)
-
-    head = spec.worldbody.add_body(name="head")
-    radius, length, center, above = size.neck
-    neck = chest + above * up
-    middle = neck + center * up
-    _capsule(head, "neck", (middle - length / 2 * up, middle + length / 2 * up), radius,
-             Role.TRUNK, _SKIN)  # fmt: skip
-    skull = head.add_geom(
-        name="head",
-        type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
-        size=size.head[:3],
-        pos=neck + size.head[3] * up + (0, *size.head_center),  # Of the original's head mesh.
-        rgba=_SKIN,
-        mass=0.0,
-    )
-    assign(skull, Role.TRUNK)
 
 
 def _add_legs(spec: mujoco.MjSpec, size: BodySize, chest: np.ndarray) -> None:
@@ -236,17 +193,21 @@ def _add_legs(spec: mujoco.MjSpec, size: BodySize, chest: np.ndarray) -> None:
         _capsule(legs, f"{side}_foot", (heel, toe), size.foot[0], Role.TRUNK, _TROUSERS)
 
 
-def _add_left_arm(spec: mujoco.MjSpec, size: BodySize, chest: np.ndarray) -> None:
-    """Left arm at rest: abducted by 5°, elbow bent by 90°, forearm forward."""
-    arm = spec.worldbody.add_body(name="left_arm")
-    shoulder = chest + (size.shoulder_out, 0, 2 * size.pecs_up)
+def _add_still_arm(
+    spec: mujoco.MjSpec, size: BodySize, chest: np.ndarray, side: str, sign: int
+) -> None:
+    """An arm at rest: abducted by 5°, elbow bent by 90°, forearm forward."""
+    arm = spec.worldbody.add_body(name=f"{side}_arm")
+    shoulder = chest + (sign * size.shoulder_out, 0, 2 * size.pecs_up)
     tilt = np.deg2rad(5.0)
-    elbow = shoulder + size.upper_arm[1] * np.array([np.sin(tilt), 0, -np.cos(tilt)])
+    down = np.array([sign * np.sin(tilt), 0, -np.cos(tilt)])
+    elbow = shoulder + size.upper_arm[1] * down
     wrist = elbow + (0, -(size.forearm[1] + size.forearm[0]), 0)
-    _capsule(arm, "left_upper_arm", (shoulder, elbow), size.upper_arm[0], Role.TRUNK, _SKIN)
-    _capsule(arm, "left_forearm", (elbow, wrist), size.forearm[0], Role.TRUNK, _SKIN)
+    upper = (shoulder, elbow)
+    _capsule(arm, f"{side}_upper_arm", upper, size.upper_arm[0], Role.TRUNK, SKIN)
+    _capsule(arm, f"{side}_forearm", (elbow, wrist), size.forearm[0], Role.TRUNK, SKIN)
     hand = wrist + (0, -size.hand, 0)
-    _capsule(arm, "left_hand", (hand, hand), size.hand, Role.TRUNK, _SKIN)
+    _capsule(arm, f"{side}_hand", (hand, hand), size.hand, Role.TRUNK, SKIN)
 
 
 def _add_right_arm(
@@ -278,7 +239,7 @@ def _add_right_arm(
             )
             add_servo(spec, joint, servo, servo.torque_caps[index])
             index += 1
-        rgba = _SHIRT if role is Role.SHOULDER else _SKIN
+        rgba = _SHIRT if role is Role.SHOULDER else SKIN
         geom = _capsule(parent, name, ends, radius, role, rgba)
         geom.mass = _MASS_SHARE[share] * size.mass
     assert index == len(start)

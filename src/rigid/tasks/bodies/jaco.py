@@ -67,26 +67,27 @@ _FINGER_ROOTS = (
 
 @dataclass(frozen=True)
 class Servo:
-    """A velocity servo as a MuJoCo position actuator: torque = gain·(2.5·(target - q) - q̇).
+    """A velocity servo as a MuJoCo position actuator: torque = gain·(rate·(target - q) - q̇).
 
-    The original drives every joint at 2.5 /s times the distance to its target, with the torque
+    The original drives every joint at `rate` times the distance to its target, with the torque
     capped. A high `gain` makes light joints oscillate at a 0.02 s step, hence the armature.
     """
+
+    RATE = 2.5  # [1/s], Assistive Gym's position gain (0.05) over its time step.
 
     gain: float  # [N·m·s/rad]
     armature: float  # [kg·m²]
     torque_caps: tuple[float, ...]  # [N·m], one for each joint, base first.
+    rate: float = RATE  # [1/s]
 
-    RATE = 2.5  # [1/s], Assistive Gym's position gain over its time step.
 
-
-def robot_servo(profile: Literal["paper", "datasheet"]) -> Servo:
+def robot_servo(profile: Literal["paper", "datasheet"], rate: float = Servo.RATE) -> Servo:
     """The arm's servo: `paper` caps every joint at 1 N·m, `datasheet` at Kinova's peak torques."""
     if profile == "paper":
-        return Servo(1.7, 0.03, (1.0,) * 7)
+        return Servo(1.7, 0.03, (1.0,) * 7, rate)
     # Kinova's data sheet: 30.5 N·m for the four large actuators, 6.8 N·m for the wrist.
     # The higher gain asks for up to 6.25 N·m; one of 30 swings at steps of 0.02 s.
-    return Servo(10.0, 0.03, (30.5,) * 4 + (6.8,) * 3)
+    return Servo(10.0, 0.03, (30.5,) * 4 + (6.8,) * 3, rate)
 
 
 def quaternion(rpy: tuple[float, float, float]) -> np.ndarray:
@@ -106,7 +107,7 @@ def add_servo(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, servo: Servo, cap: fl
     joint.armature = servo.armature
     actuator = spec.add_actuator(name=f"{joint.name}_servo", target=joint.name)
     actuator.trntype = mujoco.mjtTrn.mjTRN_JOINT
-    stiffness = Servo.RATE * servo.gain
+    stiffness = servo.rate * servo.gain
     actuator.set_to_position(kp=stiffness, kv=servo.gain)
     actuator.forcelimited = True
     actuator.forcerange = (-cap, cap)

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from math import inf
-from statistics import NormalDist
 from typing import Any, Literal
 
-from rigid.errors import UserError
-from rigid.tasks.bodies.human import BODIES, BodySize
+from rigid.tasks.bodies.person import Person, require
 
-Impairment = Literal["none", "limits", "weakness", "tremor"]
-
-# Stature, mean and standard deviation [m]: ANSUR II (2012), U.S. Army men and women.
-_STATURE = {"male": (1.756, 0.0686), "female": (1.629, 0.0642)}
+_require = partial(require, "itch-scratching")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,18 +37,9 @@ class RewardWeights:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ItchScratchingParameters:
+class ItchScratchingParameters(Person):
     """Body, impairment, itch and physics of one itch-scratching task."""
 
-    body: Literal["male", "female"] = "male"
-    """Which capsule body sits in the chair. The original draws it anew in every episode; a fixed
-    body keeps naturalness a property of the motion."""
-    percentile: float = 50.0
-    """Stature percentile of that body, in [5, 95]; radii and mass follow stature."""
-    impairment: Impairment = "none"
-    severity: float = 1.0
-    """Share of the impairment's full strength, in [0, 1]. Full strength (Assistive Gym's worst
-    draw): joint range halved, strength a quarter, tremor of ±10°."""
     itch_limbs: tuple[Literal["forearm", "upper_arm"], ...] = ("forearm", "upper_arm")
     """Where it can itch: the middle of each named limb (paper: two fixed points)."""
     itch_spread: float = 0.0
@@ -72,11 +59,7 @@ class ItchScratchingParameters:
 
     def __post_init__(self) -> None:
         """Checks every value; raises `UserError` naming the bad one."""
-        _require(self.body in BODIES, "body", self.body, f"one of {sorted(BODIES)}")
-        _require(5 <= self.percentile <= 95, "percentile", self.percentile, "in [5, 95]")
-        _require(0 <= self.severity <= 1, "severity", self.severity, "in [0, 1]")
-        kinds = ("none", "limits", "weakness", "tremor")
-        _require(self.impairment in kinds, "impairment", self.impairment, f"one of {kinds}")
+        self.check_person("itch-scratching")
         limbs = ("forearm", "upper_arm")
         known = bool(self.itch_limbs) and set(self.itch_limbs) <= set(limbs)
         _require(known, "itch_limbs", self.itch_limbs, f"one or both of {limbs}")
@@ -100,29 +83,6 @@ class ItchScratchingParameters:
         return described
 
     @property
-    def body_size(self) -> BodySize:
-        """The body at the chosen percentile; girth follows stature to the power 1/2 (ours)."""
-        mean, deviation = _STATURE[self.body]
-        quantile = NormalDist().inv_cdf(self.percentile / 100)
-        stature = 1 + quantile * deviation / mean
-        return BODIES[self.body].scaled(stature, stature**0.5)
-
-    @property
-    def limit_scale(self) -> float:
-        """Factor on the arm's joint range."""
-        return 1 - 0.5 * self.severity if self.impairment == "limits" else 1.0
-
-    @property
-    def strength(self) -> float:
-        """Factor on the arm's torque caps. In the original it weakens only a passive human."""
-        return 1 - 0.75 * self.severity if self.impairment == "weakness" else 1.0
-
-    @property
     def tremor_deg(self) -> float:
-        """Amplitude of the tremor [deg]; its sign flips every control step."""
+        """Amplitude of the tremor [deg], at most ±10° (Assistive Gym); flips every control step."""
         return 10.0 * self.severity if self.impairment == "tremor" else 0.0
-
-
-def _require(condition: bool, name: str, value: object, allowed: str) -> None:
-    if not condition:
-        raise UserError(f"itch-scratching: {name} is {value!r}, but must be {allowed}")

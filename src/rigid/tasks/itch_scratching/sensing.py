@@ -9,7 +9,9 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from rigid.tasks.bodies import human, jaco, scratcher
-from rigid.tasks.itch_scratching.scene import CONTACTS_PER_PART, LIMBS
+from rigid.tasks.itch_scratching.scene import LIMBS
+from rigid.tasks.physics.scene import normal_columns as _normals
+from rigid.tasks.physics.scene import sensor_start as _start
 
 SCRATCH_RADIUS = 0.025
 """A contact counts within this distance of the itch [m] (Assistive Gym)."""
@@ -136,13 +138,3 @@ class Sensors:
         """Deepest overlap of robot or arm with anything in a control step [m]."""
         depth: np.ndarray = -data[:, :, self._penetration].min(axis=(1, 2))
         return depth
-
-
-def _start(model: mujoco.MjModel, name: str) -> int:
-    return int(model.sensor(name).adr[0])
-
-
-def _normals(model: mujoco.MjModel, name: str) -> np.ndarray:
-    """Columns of the normal component of each contact kept by a force-only sensor."""
-    columns: np.ndarray = _start(model, name) + 3 * np.arange(CONTACTS_PER_PART)
-    return columns

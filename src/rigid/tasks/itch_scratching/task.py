@@ -40,6 +40,10 @@ class ItchScratching:
         *(f"{joint}_velocity" for joint in human.ARM_JOINTS),
         *(f"itch_{limb}" for limb in LIMBS),
     )
+    feature_units: Mapping[str, str] = {
+        **dict.fromkeys(human.ARM_JOINTS, "rad"),
+        **{f"{joint}_velocity": "rad/s" for joint in human.ARM_JOINTS},
+    }
     shown_human = observation.ARM_NAMES
     outcome_names: tuple[str, ...] = ("helped", "unhelped", "unwanted_contact")
     return_range: tuple[float, float] | None = RETURN_RANGE
@@ -57,6 +61,7 @@ class ItchScratching:
         self.parameters = parameters or ItchScratchingParameters()
         self.itch_visible = itch_visible
         self.horizon = self.parameters.horizon
+        self.control_period = self.parameters.physics_step * self.parameters.substeps
         names = observation.ROBOT_SEEING_NAMES if itch_visible else observation.ROBOT_NAMES
         self.robot = AgentSpec(len(names), len(jaco.JOINT_NAMES), names)
         self.human = AgentSpec(

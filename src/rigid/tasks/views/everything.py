@@ -20,7 +20,9 @@ class SeeingEverything:
         self.feature_names, self.outcome_names = task.feature_names, task.outcome_names
         self.return_range = task.return_range
         self.robot = AgentSpec(
-            task.robot.observation_size + task.human.observation_size, task.robot.action_size
+            task.robot.observation_size + task.human.observation_size,
+            task.robot.action_size,
+            choices=task.robot.choices,
         )
 
     def make_world(self, batch: int, *, threads: int = 0) -> World:

@@ -16,29 +16,33 @@ from rigid.tasks.views.single import AGENTS, BoundedTask, SingleWorld
 
 Agent = Literal["robot", "human"]
 ITCH_SCRATCHING = "rigid/ItchScratching-v0"
+FEEDING = "rigid/Feeding-v0"
+_TASKS = {ITCH_SCRATCHING: "itch-scratching", FEEDING: "feeding"}
 
 
 def register() -> None:
-    """Makes `gymnasium.make("rigid/ItchScratching-v0")` work; may be called again."""
-    if ITCH_SCRATCHING not in gymnasium.registry:
-        gymnasium.register(ITCH_SCRATCHING, entry_point=f"{__name__}:itch_scratching")
+    """Makes `gymnasium.make("rigid/ItchScratching-v0")` and the like work; may be called again."""
+    for name, task in _TASKS.items():
+        if name not in gymnasium.registry:
+            gymnasium.register(name, entry_point=f"{__name__}:play", kwargs={"task": task})
 
 
-def itch_scratching(
+def play(
+    task: str,
     player: str = "robot",
     partner: Policy | str | None = None,
     *,
     partner_noise: bool = False,
     **parameters: Any,
 ) -> SinglePlayerEnv:
-    """Itch scratching for one player; see `SinglePlayerEnv` and `ItchScratchingParameters`.
+    """A registered task for one player; see `SinglePlayerEnv` and the task's parameters.
 
     Raises:
         UserError: No such player, partner or parameter.
     """
-    task = make_task("itch-scratching", **parameters)
-    assert isinstance(task, BoundedTask)
-    return SinglePlayerEnv(task, player, partner, partner_noise=partner_noise)
+    built = make_task(task, **parameters)
+    assert isinstance(built, BoundedTask)
+    return SinglePlayerEnv(built, player, partner, partner_noise=partner_noise)
 
 
 class SinglePlayerEnv(gymnasium.Env[np.ndarray, np.ndarray]):

@@ -1,0 +1,265 @@
+"""`rigid data`: canonical episodes from people's recordings, and back."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import tyro
+
+from rigid.commands.naming import TaskOptions
+from rigid.errors import UserError
+
+if TYPE_CHECKING:
+    from rigid.data.episodes import CanonicalEpisodes
+    from rigid.data.importing import Imported
+    from rigid.tasks.protocol import Task
+
+_shown_as = tyro.conf.arg
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportCommand(TaskOptions):
+    """Make canonical episodes of a recording: CSV files, or a Minari dataset.
+
+    A CSV file has a row for each moment of each episode: columns `episode`, `time` [s] (or `step`),
+    one for each feature of the task, and, where known, `observation_I`, `action_I`, `reward`,
+    `return`, `success`, `seed`, `participant`, `device`, `robot`, `notes`. Samples of any rate
+    become control steps. Every episode is judged, and the good ones are used.
+
+    Examples:
+      rigid data import --from motion.csv --map columns.json --out people.npz
+      rigid data import --from minari:people/itch-v0 --task itch-scratching --out people.npz
+    """
+
+    source: Annotated[str, _shown_as(name="from", metavar="FILE.csv|DIR|minari:ID")]
+    """A CSV file, a folder of them (a file an episode), or a Minari dataset."""
+    out: Path
+    """File to write (.npz)."""
+    map_: Annotated[Path | None, _shown_as(name="map", metavar="FILE")] = None
+    """JSON or YAML: which columns of the recording are which, and in what units."""
+    rate: Annotated[float | None, _shown_as(metavar="HZ")] = None
+    """Samples a second, where rows are numbered by `step` and have no `time`."""
+    robot: Annotated[str | None, _shown_as(metavar="ROBOT")] = None
+    """The robot that people met: plays recorded actions again, to fill in returns and the like."""
+    met: Annotated[str | None, _shown_as(metavar="NAME")] = None
+    """Use only episodes whose column `robot` says this."""
+    consent: Annotated[str | None, _shown_as(metavar="TEXT")] = None
+    """What the participants agreed to; kept with the file."""
+    licence: Annotated[str | None, _shown_as(metavar="SPDX")] = None
+    """Under which others may use it, such as CC-BY-4.0; kept with the file."""
+    trust: bool = False
+    """Open a robot whose file can run code: only from people you trust."""
+    json: bool = False
+    """Print the verdicts as JSON."""
+
+    def run(self) -> int:
+        """Reads, judges, resamples and stores."""
+        from rigid.data.column_map import load_map
+        from rigid.data.episodes import save_episodes
+        from rigid.data.importing import import_recording
+        from rigid.data.sources import open_source
+        from rigid.files import make_room, writing_to
+
+        task, map_ = self.open_task(), load_map(self.map_)
+        make_room(self.out)
+        opened = open_source(self.source, task, map_, rate=self.rate)
+        about = opened.about
+        if self.consent is not None:
+            about = about.model_copy(update={"consent": self.consent})
+        if self.licence is not None:
+            about = about.model_copy(update={"licence": self.licence})
+        found = import_recording(
+            opened.recording, task, map_=map_, about=about, source=opened.source, robot=self.met,
+            provenance={**opened.provenance, "imported_from": self.source},
+        )  # fmt: skip
+        episodes = found.episodes
+        notes = []
+        if found.computed:
+            notes.append(f"computed velocities of {', '.join(found.computed)}")
+        if episodes is not None and self.robot is not None:
+            episodes, said = self._completed(task, episodes)
+            notes.append(said)
+        if episodes is not None:
+            with writing_to(self.out):
+                save_episodes(self.out, episodes)
+        return self._tell(found, episodes, notes)
+
+    def _completed(self, task: Task, episodes: CanonicalEpisodes) -> tuple[CanonicalEpisodes, str]:
+        from rigid.compute.completing import complete
+        from rigid.policies.loading import load_policy
+        from rigid.policies.opening import Opening
+
+        assert self.robot is not None
+        robot = load_policy(self.robot, task=task, agent="robot", opening=Opening(trust=self.trust))
+        found, same = complete(task, robot, episodes, where=Path(self.source))
+        said = f"{int(same.sum())} of {len(same)} episodes came out again with {self.robot}"
+        if not same.all():
+            said += "; of the others nothing was filled in: they met another robot or task"
+        return found, said
+
+    def _tell(self, found: Imported, episodes: CanonicalEpisodes | None, notes: list[str]) -> int:
+        from rigid.commands.data_tables import print_verdicts, too_few
+
+        used = 0 if episodes is None else len(episodes)
+        if self.json:
+            verdicts = [verdict.as_json() for verdict in found.verdicts]
+            print(json.dumps({"episodes": verdicts, "used": used, "notes": notes}))
+        else:
+            print_verdicts(found.verdicts)
+        if episodes is None:
+            raise UserError(
+                f"{self.source} holds no episode that can be used: the reasons stand above"
+            )
+        warnings = [too_few(used), _about_velocities(found.computed, episodes.feature_names)]
+        untold = episodes.about.consent is None or episodes.about.licence is None
+        if untold and episodes.source == "recorded":
+            warnings.append("nobody will know what may be done with it: --consent, --licence")
+        for note in notes:
+            print(note, file=sys.stderr)
+        for warning in filter(None, warnings):
+            print(f"warning: {warning}", file=sys.stderr)
+        if not self.json:
+            print(f"{used} of {len(found.verdicts)} episodes: {self.out}")
+        return 0
+
+
+def _about_velocities(computed: Sequence[str], names: Sequence[str]) -> str | None:
+    """Velocities from positions are smoother than the task's, which a referee of windows sees."""
+    if not computed:
+        return None
+    measured = [name for name in names if name.removesuffix("_velocity") not in computed
+                or name in computed]  # fmt: skip
+    return (
+        "velocities that were computed from positions are not quite those of the task; let nobody "
+        f"judge by them: rigid frontier --features {','.join(measured)}"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShowCommand:
+    """Show what a file of episodes holds: people, rate, ranges, consent, licence, hash.
+
+    Example:
+      rigid data show people.npz
+    """
+
+    file: Annotated[Path, tyro.conf.Positional]
+    """File of episodes (.npz)."""
+    json: bool = False
+    """Print as JSON."""
+
+    def run(self) -> int:
+        """Reads and prints."""
+        from rigid.commands.data_tables import described, print_described
+        from rigid.data.episodes import load_episodes
+
+        found = described(load_episodes(self.file, task=None))
+        if self.json:
+            print(json.dumps(found))
+        else:
+            print_described(found)
+        return 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckCommand(TaskOptions):
+    """Check that a file of episodes can be used as canonical data of a task; exit 1 if it cannot.
+
+    Example:
+      rigid data check people.npz --task itch-scratching
+    """
+
+    file: Annotated[Path, tyro.conf.Positional]
+    """File of episodes (.npz)."""
+    json: bool = False
+    """Print the verdicts as JSON."""
+
+    def run(self) -> int:
+        """Loads, judges and prints."""
+        from rigid.commands.data_tables import print_verdicts, too_few
+        from rigid.data.checking import judge_file
+        from rigid.data.episodes import load_episodes
+
+        task = self.open_task()
+        episodes = load_episodes(self.file, task=task)
+        verdicts = judge_file(episodes, task)
+        problem = too_few(len(episodes)) if episodes.source == "recorded" else None
+        if self.json:
+            listed = [verdict.as_json() for verdict in verdicts]
+            print(json.dumps({"episodes": listed, "problem": problem}))
+        else:
+            print_verdicts(verdicts)
+        if problem is not None:
+            print(f"warning: {problem}", file=sys.stderr)
+        bad = sum(not verdict.used for verdict in verdicts)
+        if not self.json:
+            print(f"{self.file}: {len(verdicts) - bad} of {len(verdicts)} episodes are good")
+        return int(bad > 0 or problem is not None)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExportCommand:
+    """Write episodes as a Minari dataset of one agent, or as a CSV table.
+
+    Consent, licence and task go along. The robot's view needs --robot, which plays the episodes
+    again; the human's view then gains the last observation and every reward.
+
+    Examples:
+      rigid data export canonical.npz --to minari --agent human --out people-v0
+      rigid data export canonical.npz --to csv --out people.csv
+    """
+
+    file: Annotated[Path, tyro.conf.Positional]
+    """File of episodes (.npz)."""
+    out: Annotated[str, _shown_as(metavar="PATH|minari:ID")]
+    """New directory, named as Minari wants (NAME-v0), or minari:ID; for CSV a file."""
+    to: Literal["minari", "csv"] = "minari"
+    """Format."""
+    agent: Literal["human", "robot"] = "human"
+    """Whose view (Minari)."""
+    robot: Annotated[str | None, _shown_as(metavar="ROBOT")] = None
+    """The robot that the human met, to play the episodes again."""
+    task: Annotated[str | None, _shown_as(metavar="TASK")] = None
+    """Their task, where RIGID does not know it by its name."""
+    trust: bool = False
+    """Open a robot whose file can run code: only from people you trust."""
+
+    def run(self) -> int:
+        """Reads and writes."""
+        from rigid.commands.data_exporting import export
+
+        print(export(self))
+        return 0
+
+
+@dataclass(frozen=True)
+class DataCommand:
+    """Canonical episodes from people: import, look at, check, export."""
+
+    what: (
+        Annotated[
+            ImportCommand,
+            tyro.conf.subcommand("import", description=inspect.getdoc(ImportCommand)),
+        ]
+        | Annotated[
+            ShowCommand, tyro.conf.subcommand("show", description=inspect.getdoc(ShowCommand))
+        ]
+        | Annotated[
+            CheckCommand, tyro.conf.subcommand("check", description=inspect.getdoc(CheckCommand))
+        ]
+        | Annotated[
+            ExportCommand,
+            tyro.conf.subcommand("export", description=inspect.getdoc(ExportCommand)),
+        ]
+    )
+    """What to do."""
+
+    def run(self) -> int:
+        """Runs the chosen command."""
+        return self.what.run()

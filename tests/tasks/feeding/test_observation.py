@@ -1,0 +1,70 @@
+"""What each player sees: sizes of the original, frames, and the mouth for both."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from rigid.tasks.bodies import head, spoon, wheelchair
+from rigid.tasks.feeding.observation import HUMAN_NAMES, ROBOT_NAMES
+
+
+@pytest.fixture(scope="module")
+def start(task):
+    """The scene at the start of an episode, and what is seen of it by name."""
+    world = task.make_world(1, threads=1)
+    step = world.reset(np.array([5]))
+    data = mujoco.MjData(task.model)
+    data.qpos[:] = world._batch.bind("qpos")[0]
+    mujoco.mj_forward(task.model, data)
+    robot = dict(zip(ROBOT_NAMES, step.robot_observation[0], strict=True))
+    person = dict(zip(HUMAN_NAMES, step.human_observation[0], strict=True))
+    return data, robot, person
+
+
+def point(seen, name):
+    return np.array([seen[f"{name}_{axis}"] for axis in "xyz"])
+
+
+def test_both_see_as_many_numbers_as_in_the_original(task):
+    assert task.robot.observation_size == 18 + 7
+    assert task.human.observation_size == 19 + 4
+    assert task.human.action_size == 4
+
+
+def test_both_see_how_far_the_mouth_is(start):
+    data, robot, person = start
+    gap = data.site(spoon.SPOON_SITE).xpos - data.site(head.MOUTH_SITE).xpos
+    np.testing.assert_allclose(point(person, "spoon_to_mouth"), gap, atol=1e-6)
+    turned = np.array([-gap[1], gap[0], gap[2]])  # The robot's base is turned by -90°.
+    np.testing.assert_allclose(point(robot, "spoon_to_mouth"), turned, atol=1e-6)
+
+
+def test_the_robot_sees_from_its_base_and_the_human_from_the_chest(task, start):
+    data, robot, person = start
+    place = data.site(spoon.SPOON_SITE).xpos
+    np.testing.assert_allclose(point(person, "spoon"), place - task.chest, atol=1e-6)
+    away = place - np.array(wheelchair.JACO_MOUNT)
+    np.testing.assert_allclose(point(robot, "spoon"), (-away[1], away[0], away[2]), atol=1e-6)
+    face = data.body(head.HEAD_BODY)
+    np.testing.assert_allclose(point(person, "head"), face.xpos - task.chest, atol=1e-6)
+    quaternion = [person[f"head_quaternion_{axis}"] for axis in "wxyz"]
+    np.testing.assert_allclose(quaternion, face.xquat, atol=1e-6)
+
+
+def test_everything_seen_lies_within_finite_bounds(task, fed):
+    _, rows, _ = fed
+    for agent in ("robot", "human"):
+        low, high = task.bounds(agent).T
+        assert np.isfinite([low, high]).all()
+        for step in rows:
+            seen = getattr(step, f"{agent}_observation")
+            assert (seen >= low).all()
+            assert (seen <= high).all()
+
+
+def test_forces_are_felt(fed):
+    _, rows, _ = fed
+    felt = np.array([step.robot_observation[:, ROBOT_NAMES.index("spoon_force")] for step in rows])
+    known = np.array([step.human_observation[:, HUMAN_NAMES.index("spoon_force")] for step in rows])
+    np.testing.assert_array_equal(felt, known)
+    assert felt.max() > 0
