@@ -1,6 +1,6 @@
 # RIGID: every command of a contributor. A bare machine needs python3 (3.11 or newer) and make.
 .DEFAULT_GOAL := help
-.PHONY: help demo test check lint format bundled bench bench-standard paper clean
+.PHONY: help demo test check lint format bundled bench bench-standard paper docs test-environments clean
 .NOTPARALLEL:
 
 PYTHON ?= python3
@@ -20,7 +20,7 @@ test: .venv/.dev web/node_modules/.package-lock.json ## the fast suite, Python a
 	$(BIN)/pytest --numprocesses auto --dist loadfile
 	$(npm) test
 
-check: lint test ## what continuous integration runs: lint, format, types, tests
+check: lint test docs ## what continuous integration runs: lint, format, types, tests, documentation
 
 lint: .venv/.dev web/node_modules/.package-lock.json
 	$(BIN)/ruff check
@@ -45,17 +45,27 @@ paper: .venv/.rigid ## the paper's experiments: results/paper/ [PRESET=demo] [RO
 	$(BIN)/python -m benchmarks.paper $(if $(PRESET),--preset $(PRESET)) \
 		$(if $(ROBOT_SEEDS),--robot-seeds $(ROBOT_SEEDS)) $(if $(FOR),--for $(FOR))
 
+test-environments: .venv/.environments ## tasks of other libraries: PettingZoo, MaMuJoCo, Overcooked
+	$(BIN)/pytest -m slow tests/tasks/bridges/test_strangers.py
+
+docs: .venv/.docs ## builds the documentation: build/docs/index.html
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --jobs auto \
+		--conf-dir docs --doctree-dir build/doctrees . build/docs
+	@echo "build/docs/index.html"
+
 clean: ## removes all that was built or cached; keeps runs/
-	rm -rf .venv .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache dist
+	rm -rf .venv .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache build dist docs/commands
 	rm -rf src/rigid/report/static web/build web/node_modules
 	find src tests -name __pycache__ -prune -exec rm -rf {} +
 
 # The environment. Stamps in .venv/ say what was installed, so that the next call starts at once.
-.venv/.rigid .venv/.dev: pyproject.toml hatch_build.py $(WEB) | $(BIN)/python
+.venv/.rigid .venv/.dev .venv/.docs .venv/.environments: pyproject.toml hatch_build.py $(WEB) | $(BIN)/python
 	@echo "installing into .venv: some minutes on the first run"
 	$(BIN)/pip install --quiet --editable '.$(extras_$(@F))'
 	@touch $@
 extras_.dev := [test,dev]
+extras_.docs := [docs]
+extras_.environments := [test,environments]
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
