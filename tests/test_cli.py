@@ -14,8 +14,9 @@ from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
 from rigid.commands.calibrating import CalibrateCommand
 from rigid.commands.comparing import CompareCommand
-from rigid.commands.data import CheckCommand, ImportCommand, ShowCommand
 from rigid.commands.data import ExportCommand as ExportDataCommand
+from rigid.commands.data import ImportCommand
+from rigid.commands.data_looking import CheckCommand, ShowCommand
 from rigid.commands.doctoring import DoctorCommand
 from rigid.commands.exporting import ExportCommand
 from rigid.commands.gating import GateCommand

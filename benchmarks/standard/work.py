@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from benchmarks.standard.making import Workplace
 from benchmarks.standard.plan import Part
 from rigid.compute.executors import Executor
-from rigid.compute.processes import GAIN_OF_PROCESSES, Processes, cores
+from rigid.compute.processes import GAIN_OF_PROCESSES, Processes
+from rigid.cores import cores
 from rigid.presets import Preset
 
 _ROBOT_SECONDS = 6.0

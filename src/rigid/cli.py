@@ -33,6 +33,7 @@ from rigid.commands.training import TrainCommand
 from rigid.commands.verifying import VerifyCommand
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
+from rigid.serving.environment import shut_working_directory
 
 INTERRUPTED = 130
 
@@ -65,6 +66,7 @@ _COMMANDS: dict[str, type[_Runs]] = {
 
 def main() -> None:
     """Runs one command and exits: 0 done, 1 a check failed, 2 bad input, 130 interrupted."""
+    shut_working_directory()
     code = run()
     if code == INTERRUPTED:
         # JAX may still compile or compute on threads of its own, and crashes when Python takes down

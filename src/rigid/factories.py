@@ -5,10 +5,12 @@ Importing runs code; but the user wrote the name on the command line.
 
 from __future__ import annotations
 
+import hashlib
 import importlib
 import sys
 import traceback
 from collections.abc import Callable
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -58,6 +60,22 @@ def find_module(name: str, folder: str) -> ModuleType:
     if not attribute or not all(part.isidentifier() for part in module.split(".")):
         raise UserError(f"{name!r} names no factory in a module: {_form(name)}")
     return _imported(name, module, folder)
+
+
+def source_fingerprint(name: str, folder: str) -> str:
+    """SHA-256 over a name and the bytes of its module's file; what that imports is not seen.
+
+    Args:
+        name: `KIND:MODULE:FACTORY`, as the user wrote it.
+        folder: Where the module is looked for before what is installed.
+
+    Raises:
+        UserError: As `find_module` does, or the module has no file.
+    """
+    file = find_module(name, folder).__file__
+    if file is None:
+        raise UserError(f"{name}: the module has no file: {_form(name)}")
+    return hashlib.sha256(f"{name}\0".encode() + Path(file).read_bytes()).hexdigest()
 
 
 def _form(name: str) -> str:

@@ -123,6 +123,16 @@ REFUSED_WITHOUT = {
     "--seed is -1, but must be at least 0": ["--video", "a.webp", *PAIR, "--seed=-1"],
     "name a run directory, or --robot for an episode of any pair or --onnx": ["--onnx", "a.onnx"],
     "models end in .onnx": ["--onnx", "a.bin", *PAIR],
+    **{
+        f"{option[0].partition('=')[0]} is for --video FILE": ["--onnx", "a.onnx", *PAIR, *option]
+        for option in (
+            ["--seed=3"],
+            ["--human=builtin:passive"],
+            ["--trust"],
+            ["--frames=2"],
+            ["--fps=9"],
+        )
+    },
     "--agent is for --onnx FILE": ["--video", "a.webp", *PAIR, "--agent", "robot"],
     "human 'builtin:vanilla' is unknown for task": ["--onnx", "a.onnx", *PAIR, "--agent", "human"],
     "policy.json does not exist": ["--onnx", "a.onnx", "--robot", "nowhere"],

@@ -8,13 +8,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rigid.compute.calibration import calibrate, range_of_returns, rounded_range, spread_of
+from rigid.compute.calibration import (
+    _recorded_returns,
+    calibrate,
+    range_of_returns,
+    rounded_range,
+    spread_of,
+)
 from rigid.compute.return_range import find_return_range
 from rigid.compute.subject import Subject
+from rigid.data.episodes import save_episodes
+from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.presets import PRESETS
 from rigid.tasks.analytic.hand_tracking import HandTracking
 from tests.compute.tiny import TINY, Notes
+from tests.toys import Follower, Pointer, ToyReach
 
 EASY = replace(TINY, iterations=60, episodes=20, scoring_episodes=30)
 """Enough for λ = 0 to find the way out."""
@@ -93,6 +102,22 @@ def test_the_rule_of_rounding_gives_the_range_that_itch_scratching_has_frozen():
     from rigid.tasks.itch_scratching.task import RETURN_RANGE
 
     assert rounded_range(np.mean([-91, -356, -368]), 454.0) == RETURN_RANGE
+
+
+def test_a_return_that_nobody_knows_proves_no_sabotage():
+    with pytest.raises(UserError, match="sabotage does not lower the return beyond noise"):
+        range_of_returns([np.zeros(5)], np.array([1.0, np.nan]))
+
+
+@pytest.mark.parametrize(("known", "found"), [(3, [0.0, 1.0, 2.0]), (1, None)])
+def test_only_known_returns_of_people_count_and_one_is_none(known, found, tmp_path):
+    task = ToyReach()
+    told = np.where(np.arange(12) < known, np.arange(12), np.nan).astype(np.float32)
+    people = record(task, Follower(), Pointer(), episodes=12, seed=0, provenance={})
+    save_episodes(tmp_path / "people.npz", replace(people, source="recorded", returns=told))
+    subject = Subject(task, "builtin:none", canonical=str(tmp_path / "people.npz"))
+    returns = _recorded_returns(subject)
+    assert (None if returns is None else returns.tolist()) == found
 
 
 def test_a_single_episode_has_no_standard_error():

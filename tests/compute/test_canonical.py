@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rigid.compute.canonical import chosen_features, divide_recorded
+from rigid.compute.canonical import chosen_features, divide_recorded, trained_on
 from rigid.data.about import About, EpisodeNote
 from rigid.data.episodes import CanonicalEpisodes
 from rigid.errors import UserError
@@ -42,6 +42,12 @@ def test_people_are_divided_between_search_and_folds(count, search, folds):
         assert all(len(part) for part in parts)
         everyone = np.concatenate([found.search.returns, *parts])
         assert sorted(everyone) == list(range(count))
+
+
+@pytest.mark.parametrize("count", [12, 31, 60, 400, 401])
+def test_the_number_that_trains_each_referee_is_that_of_the_folds(count):
+    trained = [len(fold.train) for fold in divided(count).folds]
+    assert trained_on(count, search=40, folds=4) == int(np.mean(trained))
 
 
 def test_features_stay_with_their_episode():

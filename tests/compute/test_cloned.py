@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rigid.compute.canonical import pick
+from rigid.compute.clone_judging import held_out_naturalness, play_clone
 from rigid.compute.cloned import clone_human
 from rigid.data.about import About, EpisodeNote
 from rigid.data.recording import record
@@ -53,6 +55,22 @@ def test_it_moves_as_naturally_and_returns_as_much(clone):
     assert clone.parts.by == "participant"
 
 
+def test_twelve_held_out_episodes_are_enough_to_hold_it_against_them_alone(people):
+    played = play_clone(TASK, ROBOT, HUMAN, 60, 0)
+    found = held_out_naturalness(TASK, pick(people, np.arange(12)), played, 0)
+    assert found["episodes"] == 12
+    assert found["naturalness"] > 0.8
+    assert held_out_naturalness(TASK, pick(people, np.arange(11)), played, 0) is None
+
+
+def test_with_few_held_out_people_it_is_told_that_its_naturalness_is_against_its_own(clone):
+    assert len(clone.parts.test) == 10
+    assert "the very people that it was cloned from" in clone.remarks[0]
+    held_out = {"naturalness": 1.0, "naturalness_se": 0.0, "episodes": 12}
+    richer = replace(clone, played={**clone.played, "held_out": held_out})
+    assert not any("the very people" in remark for remark in richer.remarks)
+
+
 def test_a_human_who_looks_at_nothing_is_no_worse_than_his_mean_action_and_is_told(clone):
     # Nothing can foresee noise: the clone ties with the mean, and a tie is no proof.
     gap = clone.likelihoods.clone - clone.likelihoods.mean_action
@@ -73,7 +91,5 @@ def test_without_observations_and_actions_nobody_is_cloned(people):
 
 
 def test_eleven_episodes_are_too_few_for_a_clone(people):
-    from rigid.compute.canonical import pick
-
     with pytest.raises(UserError, match=r"holds 11 episodes, but a clone .* at least 12"):
         cloned(pick(people, np.arange(11)))

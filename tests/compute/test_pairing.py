@@ -223,6 +223,13 @@ def test_a_recording_with_another_robot_is_refused(pick, anna):
     )  # fmt: skip
 
 
+def test_the_robot_that_the_user_names_for_recordings_may_be_code(pick, anna):
+    refused(
+        pick, "there is no module 'no_such_arm'",
+        kind="faithfulness", recordings=(anna,), robot="python:no_such_arm:make",
+    )  # fmt: skip
+
+
 def test_a_recording_without_returns_is_refused(pick, anna):
     episodes = load_episodes(anna, task=ToyReach())
     save_episodes(anna, replace(episodes, returns=np.full(6, np.nan, np.float32)))

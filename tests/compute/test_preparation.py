@@ -117,3 +117,19 @@ def test_where_nobody_recorded_returns_the_human_says_what_canonical_behaviour_r
     assert [block["return_source"] for block in blocks] == ["human", "episodes"]
     # Both are means of that human with that robot, over other episodes.
     assert blocks[0]["return"] == pytest.approx(blocks[1]["return"], rel=0.2)
+
+
+def test_one_unknown_return_leaves_the_known_ones_in_force(base, pair, tmp_path):
+    robot, human = (str(base / "pair" / agent) for agent in ("robot", "human"))
+    found = record(FilmedReach(), *pair, episodes=24, seed=5, provenance={})
+    told = np.full(24, -7.0, np.float32)
+    told[3] = np.nan
+    people = replace(
+        found, source="recorded", observations=None, actions=None, returns=told,
+        success=(told == -7).astype(np.float32),
+    )  # fmt: skip
+    save_episodes(tmp_path / "people.npz", people)
+    subject = Subject(FilmedReach(), robot, human, canonical=str(tmp_path / "people.npz"))
+    block = prepare(subject, TINY, settings_for(TINY)).canonical
+    assert (block["return"], block["return_source"]) == (-7.0, "episodes")
+    assert block["return_episodes"] in {block["episodes_referee"], block["episodes_referee"] - 1}

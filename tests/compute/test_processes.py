@@ -93,6 +93,6 @@ def test_what_cannot_be_sent_stays_in_one_process(tmp_path):
 
 
 def test_many_seeds_get_a_process_for_each_core_or_seed(monkeypatch):
-    monkeypatch.setattr("rigid.compute.processes.cores", lambda: [0, 1, 2])
+    monkeypatch.setattr("rigid.cores.cores", lambda: [0, 1, 2])
     assert on_this_machine(2, WORTH_PROCESSES, "robot") == Processes(2)
     assert on_this_machine(1000, WORTH_PROCESSES, "robot") == Processes(3)

@@ -67,6 +67,12 @@ def test_without_actions_nobody_can_see_it_again():
         replay_recording(FilmedReach(), Follower(), recording, where=HERE)
 
 
+def test_where_seeds_are_only_numbers_of_episodes_nobody_can_see_it_again():
+    recording = replace(recorded(FilmedReach(), Follower()), provenance={"seeds": "numbered"})
+    with pytest.raises(UserError, match=r"anna\.npz has no column 'seed', so nobody knows how"):
+        replay_recording(FilmedReach(), Follower(), recording, where=HERE)
+
+
 @pytest.fixture(scope="module")
 def panels(single_run):
     """The referees of `single_run`."""

@@ -180,6 +180,16 @@ def test_what_is_unknown_of_an_episode_is_nan_and_never_infinite(path, name):
     refused(path, f"{name} are infinite, first in episode 1: give NaN where unknown")
 
 
+def test_success_is_0_or_1_or_unknown(path):
+    edit(path, success=np.array([1.0, np.nan, 0.5]))
+    refused(path, "success of episode 2 is 0.5, but must be 1 or 0")
+
+
+def test_a_seed_below_0_is_refused(path):
+    edit(path, seeds=np.array([0, -1, 2]))
+    refused(path, "the seed of episode 1 is -1, but must be 0 or more")
+
+
 def test_a_number_too_large_for_float32_is_not_finite(path):
     features = some_episodes().features.astype(np.float64)
     features[0, 0, 0] = 1e300

@@ -84,10 +84,82 @@ def test_counted_samples_are_sampled_at_the_rate_that_is_given(path):
     np.testing.assert_allclose(found.features[0, :, 0], np.arange(1, 11) / 10, atol=3e-3)
 
 
-def test_velocities_that_are_missing_are_computed_and_told(path):
-    class Moving(ToyReach):
-        feature_names = ("hand", "hand_velocity")
+class Moving(ToyReach):
+    """The toy task with a velocity among its features."""
 
+    feature_names = ("hand", "hand_velocity")
+
+
+@pytest.mark.parametrize("hz", [4.0, 10.0, 20.0, 25.0, 120.0])
+@pytest.mark.parametrize("left_out", [0, 1])
+def test_velocities_are_finite_and_right_with_and_without_a_sample_at_the_end(path, hz, left_out):
+    whole = samples(hz=hz, speed=0.7)
+    rows = {name: column[: len(column) - left_out] for name, column in whole.items()}
+    found = brought_in(write(path, {"a": rows}), task=Moving())
+    if hz == 4 and left_out:  # More than a control period is missing then.
+        assert refused(found) == {"a": "too short: 0.75 s of 1 s"}
+    else:
+        np.testing.assert_allclose(found.episodes.features[0, :, 1], 0.7, atol=0.06)
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor", "spacing"), [("ms", 1e3, "20"), ("us", 1e6, "2e+04"), ("ns", 1e9, "2e+07")]
+)
+def test_a_clock_in_another_unit_is_refused_with_the_unit_for_the_map(path, unit, factor, spacing):
+    columns = samples()
+    columns["time"] = columns["time"] * factor
+    (reason,) = refused(brought_in(write(path, {"a": columns}))).values()
+    assert reason == (
+        f"one sample every {spacing} s, but a step of the task is 0.1 s: is `time` in {unit}? "
+        f'give "unit": "{unit}" in --map'
+    )
+
+
+def test_samples_too_far_apart_to_show_motion_are_refused_with_the_rate_that_is_needed(path):
+    found = brought_in(write(path, {"a": samples(hz=2)}))
+    assert refused(found)["a"].endswith("a step of the task is 0.1 s: record at 3.33 Hz or more")
+
+
+@pytest.mark.parametrize("seed", [-1, 1.7])
+def test_a_seed_that_is_no_whole_number_from_0_on_is_refused(path, seed):
+    episodes = {"a": samples(seed=3), "b": samples(seed=seed, speed=0.9)}
+    found = brought_in(write(path, episodes))
+    assert refused(found) == {"b": f"seed {seed:g} is none: a seed is a whole number, 0 or more"}
+
+
+def test_success_of_a_whole_that_is_cut_is_unknown(path):
+    whole = {"a": samples(seconds=2, success=1), "b": samples(speed=0.9, success=1)}
+    found = brought_in(write(path, whole))
+    np.testing.assert_array_equal(found.episodes.success, [np.nan, 1])
+
+
+def aimed(path, tmp_path, aims):
+    """The episode with a text for its goal, and a map that looks for 'left'."""
+    write(path, {"a": {**samples(), "aim": np.asarray(aims, dtype=object)}})
+    (tmp_path / "map.json").write_text('{"goal": {"from": "aim", "equals": "left"}}')
+    return brought_in(path, map_=tmp_path / "map.json")
+
+
+def test_a_text_that_no_table_holds_is_refused_with_those_that_are_there(path, tmp_path):
+    with pytest.raises(
+        UserError, match=r"'aim' nowhere holds 'left', .*; it holds 'Left', 'right'"
+    ):
+        aimed(path, tmp_path, ["Left"] * 26 + ["right"] * 25)
+
+
+def test_an_empty_cell_is_unknown_and_no_other_text(path, tmp_path):
+    found = aimed(path, tmp_path, ["left"] * 20 + [""] * 31)
+    assert refused(found) == {"a": "no number in 31 rows of 'goal', the first is row 21"}
+
+
+def test_damage_beside_a_table_is_said_with_its_entry(path):
+    write(path, GOOD)
+    path.with_name("people.csv.json").write_text('{"about": {"consent": true}}')
+    with pytest.raises(UserError, match=r"people\.csv is damaged: about\.consent: Input should be"):
+        brought_in(path)
+
+
+def test_velocities_that_are_missing_are_computed_and_told(path):
     found = brought_in(write(path, {"a": samples(speed=0.7)}), task=Moving())
     assert found.computed == ("hand",)
     np.testing.assert_allclose(found.episodes.features[0, :, 1], 0.7, atol=0.03)
@@ -190,8 +262,9 @@ def test_a_map_renames_converts_and_tells_units(path, tmp_path):
     [
         ({"from": "x", "unit": "furlong"}, "hand: unit 'furlong' is unknown, known are rad, deg"),
         ({"unit": "deg"}, r'hand: give either "from" \(a column\) or "value" \(a number\)'),
+        ({"from": "x", "equals": "a", "unit": "m"}, 'hand: "equals" gives 1 or 0, so leave "unit"'),
         ({"from": "x", "skale": 2}, "hand.skale: Extra inputs are not permitted"),
-        ("nothing", "people.csv has no column 'nothing', from which the map takes 'hand'"),
+        ("nothing", "people has no column 'nothing', from which the map takes 'hand'"),
     ],
 )
 def test_a_bad_map_is_refused_with_its_entry(path, tmp_path, entry, message):

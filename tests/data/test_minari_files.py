@@ -105,6 +105,12 @@ def test_features_that_the_human_observes_are_taken_from_the_next_observation(tm
     assert (found.returns[0], found.seeds[0]) == (10, 5)
 
 
+def test_a_map_from_a_column_that_a_dataset_lacks_is_refused_with_those_it_has(tmp_path):
+    (tmp_path / "map.json").write_text('{"hand": "nothing"}')
+    with pytest.raises(UserError, match=r"no column 'nothing', .*; columns: step, reward, act"):
+        brought_in(f"minari:{strangers_dataset(tmp_path)}", map_=tmp_path / "map.json")
+
+
 def test_a_dataset_that_would_run_its_environment_is_refused(tmp_path):
     place = strangers_dataset(tmp_path, observation_space=None, env_spec='{"id": "x-v0"}')
     with pytest.raises(UserError, match="does not say what its observations and actions are"):

@@ -10,6 +10,7 @@ from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.policies.passive import PassivePolicy
 from rigid.tasks.itch_scratching.task import ItchScratching
+from rigid.tasks.protocol import AgentSpec
 from tests.toys import SPEED, Follower, Pointer, ToyReach, untrained
 
 TASK = ToyReach()
@@ -54,6 +55,19 @@ def test_the_natural_pair_does_what_it_should():
     assert (episodes.success == 1).all()
     np.testing.assert_allclose(hand[:, -1], goal[:, -1], atol=0.1)
     assert set(np.unique(goal)) == {-1.0, 1.0}
+
+
+@pytest.mark.parametrize(("choices", "kept"), [((), (1.0, 1.0)), ((2,), (1.0, -1.0))])
+def test_actions_are_kept_as_the_task_takes_them(choices, kept):
+    class Loud(Pointer):
+        def act(self, observation, state, rng):
+            del rng
+            return np.tile([3.0, 2.0], (len(observation), 1)), state
+
+    task, loud = ToyReach(), Loud()
+    task.human = AgentSpec(3, 2, ("robot", "hand", "goal"), choices=choices)
+    found = play(task=task, human=loud).actions.reshape(-1, 2)
+    np.testing.assert_array_equal(found, np.tile(kept, (len(found), 1)))
 
 
 def test_features_are_of_the_state_that_the_action_led_to():

@@ -23,6 +23,7 @@ RUNS = {
         *(f"{way}-{robot}" for way in "vr" for robot in range(3)),
     ],
     "docs/export.md": ["vanilla"],
+    "docs/policies.md": ["vanilla"],
     "docs/robots.md": ["vanilla-fresh", "robust-fresh", "robust-twice-fresh"],
     "examples/ci/README.md": ["last"],
 }

@@ -131,6 +131,23 @@ def test_a_curve_that_still_rises_at_its_end_is_a_warning():
     assert found.advice == "Record more: about 100 may be enough."
 
 
+def test_of_recorded_people_the_curve_is_read_where_referees_are_trained_and_both_are_told():
+    found = check_data(60, CURVE, source="recorded", trained=12)
+    assert found.status == "warn"
+    assert found.says.startswith(
+        "With 60 canonical episodes, 12 of which train each referee, a judge tells 90% of held-out "
+        "steps right, with 100 to train on it tells 95%"
+    )
+    assert found.evidence["enough"] == 125  # 25 to train on.
+    assert check_data(60, CURVE, source="synthetic").status == "pass"
+
+
+def test_a_curve_at_chance_says_nothing_and_is_a_warning():
+    found = check_data(100, {size: [0.52] for size in CURVE}, source="synthetic")
+    assert found.status == "warn"
+    assert "hardly more than chance" in found.says
+
+
 def test_without_a_curve_there_is_too_little_to_judge():
     found = check_data(4, {}, source="recorded")
     assert found.status == "fail"

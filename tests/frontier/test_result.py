@@ -74,6 +74,7 @@ def test_a_damaged_result_says_to_delete_it(tmp_path, text):
 FOREIGN = {
     "newer": ({**DATA, "schema": 2}, "schema: Input should be 1"),
     "empty": ({"schema": 1}, "task: Field required"),
+    "no file": ({**DATA, "range_file": "x"}, "range_file: Input should be a valid dictionary"),
     "a list": ([], "Input should be a valid dictionary"),
     "no anchor": ({**DATA, "canonical": None}, "canonical: Input should be a valid dictionary"),
     "no seed": ({**DATA, "auc_by_seed": {}}, "auc_by_seed: Dictionary should have at least 1"),

@@ -8,6 +8,7 @@ import pytest
 from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.naturalness.features import choose_features, seen_through
+from rigid.tasks.protocol import AgentSpec
 from tests.toys import Follower, Pointer, ToyReach
 
 TASK = ToyReach()
@@ -69,6 +70,13 @@ def test_the_default_leaves_the_task_alone():
     assert seen_through(TASK, choose_features("default", TASK)) is TASK
 
 
+def test_a_view_keeps_the_tasks_pace_and_the_units_of_what_it_shows():
+    task = ToyReach()
+    task.control_period, task.feature_units = 0.5, {"hand": "m", "goal": "m"}
+    view = seen_through(task, choose_features("goal", task))
+    assert (view.control_period, view.feature_units) == (0.5, {"goal": "m"})
+
+
 @pytest.mark.parametrize(
     ("text", "task"),
     [
@@ -89,6 +97,15 @@ def test_playing_gives_what_stored_episodes_give(text, task):
     taken = chosen.of(stored.features, stored.observations, stored.actions)
     np.testing.assert_array_equal(played.features, taken)
     assert played.feature_names == chosen.names
+
+
+def test_of_a_discrete_action_the_choice_counts_and_never_its_scores():
+    task = Silent()
+    task.human = AgentSpec(1, 3, choices=(3,))
+    chosen = choose_features("observation+action", task)
+    scores = np.array([[2.0, 3.0, 0.1], [0.0, 0.2, 0.1]])
+    seen = chosen.of(np.zeros((2, 0)), np.zeros((2, 1)), scores)
+    np.testing.assert_array_equal(seen, [[0, -1, 1, -1]] * 2)
 
 
 def test_actions_count_as_the_task_takes_them():

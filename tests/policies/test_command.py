@@ -100,6 +100,16 @@ def test_it_cannot_be_turned_back(load):
         robot.act(OBSERVATION, start, None)
 
 
+def test_a_program_that_ended_is_started_again_but_not_in_the_middle_of_an_episode(load):
+    robot = load(COUNTER)
+    before = robot.initial_state(3)
+    robot._model._open_session().kill()
+    with pytest.raises(UserError, match="step 1: the program ended in the middle of this episode"):
+        robot.act(OBSERVATION, before, None)
+    action, _ = robot.act(OBSERVATION, robot.initial_state(3), None)
+    np.testing.assert_array_equal(action, np.zeros((3, 1)))
+
+
 def test_its_noise_comes_from_rigid(load):
     robot = load(NOISY)
     state = robot.initial_state(3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rigid.policies.discrete import actions_of, scores_of
+from rigid.policies.discrete import actions_of, scores_of, taken
 from rigid.tasks.protocol import AgentSpec
 
 REALS, CHOICES = AgentSpec(3, 2), AgentSpec(3, 5, choices=(3, 2))
@@ -46,12 +46,16 @@ def test_a_single_real_may_come_without_its_axis():
     np.testing.assert_array_equal(found, [[0.5], [-0.5]])
 
 
-def test_whole_numbers_become_scores_and_scores_stay():
+def test_whole_numbers_become_scores():
     np.testing.assert_array_equal(
         actions_of(np.array([[1, 0]], np.int32), CHOICES, 1), [[-1, 1, -1, 1, -1]]
     )
-    scores = np.array([[0.1, 0.2, -0.3, 0.0, 0.9]])
-    np.testing.assert_array_equal(actions_of(scores, CHOICES, 1), scores)
+
+
+def test_the_largest_score_is_chosen_before_anything_is_clipped():
+    scores = np.array([[1.5, 2.5, -0.3, -3.0, -2.0]])
+    np.testing.assert_array_equal(actions_of(scores, CHOICES, 1), [[-1, 1, -1, -1, 1]])
+    np.testing.assert_array_equal(taken(scores[None], CHOICES), [[[-1, 1, -1, -1, 1]]])
 
 
 @pytest.mark.parametrize(

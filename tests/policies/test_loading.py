@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rigid.compute.subject import Subject, canonical_path
 from rigid.errors import UserError
 from rigid.policies import loading
 from rigid.policies.loading import builtin_names, load_policy, policy_hash
@@ -137,6 +138,35 @@ def test_what_only_sb3_robots_take_is_not_ignored_for_others(tmp_path, options, 
     store(tmp_path)
     with pytest.raises(UserError, match=rf"--{name}\w* is for sb3:FILE\.zip, but the robot is"):
         load_policy(str(tmp_path), task=TASK, agent="robot", opening=Opening(**options))
+
+
+def test_the_robots_normaliser_and_frames_are_not_the_humans(monkeypatch):
+    given = []
+
+    def open_it(place, wanted, opening):
+        given.append((place, opening))
+        return PassivePolicy(wanted.sizes.observation_size, wanted.sizes.action_size)
+
+    monkeypatch.setattr(loading, "_KINDS", {"sb3": loading._Kind("", open_it, runs_code=True)})
+    both = Opening(trust=True, vecnormalize=Path("v.pkl"), frames=4)
+    for agent in ("robot", "human"):
+        load_policy("sb3:a.zip", task=TASK, agent=agent, opening=both)
+    assert given == [("a.zip", both), ("a.zip", Opening(trust=True))]
+
+
+@pytest.mark.parametrize(
+    ("spec", "message"),
+    [
+        (f"exec:no-such-program {'x' * 5000}", "cannot be started: no-such-program"),
+        ("x" * 5000, "is no directory: give builtin:NAME"),
+    ],
+)
+def test_a_name_too_long_for_a_file_is_no_crash(spec, message):
+    with pytest.raises(UserError, match=message):
+        load_policy(spec, task=TASK, agent="robot")
+    with loading.native_directory(spec, TASK) as directory:
+        assert directory is None
+    assert canonical_path(Subject(TASK, spec)) is None
 
 
 def test_a_task_without_bundled_robots_says_so():

@@ -86,11 +86,12 @@ def test_a_chosen_number_becomes_scores(here, keepdims):
     np.testing.assert_array_equal(actions(policy).argmax(axis=2), SEEN.argmax(axis=2))
 
 
-def test_scores_are_taken_as_they_are(here):
+@pytest.mark.parametrize("size", [0.1, 1000])
+def test_of_scores_of_any_size_the_largest_is_chosen(here, size):
     policy = load(
-        save(here / "arm.onnx", linear(weight=0.1 * np.eye(2, dtype=np.float32))), CHOOSING
+        save(here / "arm.onnx", linear(weight=size * np.eye(2, dtype=np.float32))), CHOOSING
     )
-    np.testing.assert_allclose(actions(policy), 0.1 * SEEN, atol=1e-6)
+    np.testing.assert_array_equal(actions(policy).argmax(axis=2), SEEN.argmax(axis=2))
 
 
 def test_a_robot_that_was_sent_to_another_process_acts_the_same(here):
@@ -140,6 +141,19 @@ def test_a_tensor_outside_hides_in_no_inner_graph(here):
     tensor.external_data.add(key="location", value="../secret.bin")
     built.graph.node.append(helper.make_node("If", ["obs"], ["x"], then_branch=inner.graph))
     with pytest.raises(UserError, match=r"'w' lies in '../secret.bin', outside"):
+        load(save(here / "arm.onnx", built))
+
+
+def test_a_sparse_tensor_in_another_file_is_refused(here):
+    built = linear()
+    sparse = built.graph.sparse_initializer.add()
+    sparse.dims.append(4)
+    (here / "sparse.bin").write_bytes(bytes(16))
+    for part, kind in ((sparse.values, onnx.TensorProto.FLOAT), (sparse.indices, 7)):
+        part.name, part.data_type, part.data_location = "thin", kind, part.EXTERNAL
+        part.dims.append(2)
+        part.external_data.add(key="location", value="sparse.bin")
+    with pytest.raises(UserError, match="tensor 'thin' lies in another file, from which onnx does"):
         load(save(here / "arm.onnx", built))
 
 

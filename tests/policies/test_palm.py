@@ -61,7 +61,6 @@ def test_noise_is_drawn_only_with_a_generator():
     np.testing.assert_array_equal(acts(POLICY), acts(POLICY))
     noisy = acts(POLICY, np.random.default_rng(0))
     assert np.abs(noisy - acts(POLICY)).max() > 0
-    assert np.abs(noisy).max() <= 1
 
 
 def test_a_directory_is_loaded_with_the_hash_of_what_was_saved(tmp_path):

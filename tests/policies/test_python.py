@@ -34,6 +34,30 @@ class Many(Robot):
     def act(self, observation, state, rng):
         return np.zeros((len(observation), 4)), state
 
+class Scribbling(Robot):
+    def act(self, observation, state, rng):
+        observation *= 0
+        return observation[:, :1], state
+
+class Guessing(Robot):
+    def act(self, observation, state, rng):
+        return np.random.standard_normal((len(observation), 1)), state
+
+class Mixing(Robot):
+    def act(self, observation, state, rng):
+        return observation[:, :1] - observation[:, :1].mean(), state
+
+class Ragged(Robot):
+    def act(self, observation, state, rng):
+        return [[0.0], [0.0, 1.0]], state
+
+class Unbegun(Robot):
+    def initial_state(self, batch):
+        raise KeyError("hand")
+
+class Stating(Robot):
+    action_size = 2
+
 class Chooser(Robot):
     def act(self, observation, state, rng):
         return np.zeros(len(observation), int), state
@@ -58,6 +82,7 @@ def broken():
 
 number = 5
 """
+MADE = ("Robot", "Scribbling", "Named")
 
 
 @pytest.fixture
@@ -106,7 +131,7 @@ def test_another_process_makes_its_own_robot(module):
 
 def test_the_hash_follows_source_factory_and_the_robots_own(module):
     name = module()
-    hashes = [policy_hash(load(f"python:{name}:{made}")) for made in ("Robot", "Many", "Named")]
+    hashes = [policy_hash(load(f"python:{name}:{made}")) for made in MADE]
     module(SOURCE + "# Another version.\n")
     hashes.append(policy_hash(load(f"python:{name}:Robot")))
     module(SOURCE.replace('"7"', '"8"'))
@@ -134,7 +159,16 @@ def test_a_source_that_changed_on_the_way_to_another_process_is_refused(module):
         ),
         ("threading.Lock", "gives a .* without initial_state\\(…\\): a policy has initial_state"),
         ("Wide", "maps 5 observations to 1 actions, but the robot of 'toy-reach' maps 2 to 1"),
-        ("Odd", "observation_size is 'two', but must be a number"),
+        ("Odd", "observation_size is 'two', but must be a whole number from 1"),
+        ("Stating", "states action_size 2, but answers 1 numbers"),
+        ("Many", "maps 2 observations to 4 actions, but the robot of 'toy-reach' maps 2 to 1"),
+        ("Chooser", "answers whole numbers, as for discrete actions"),
+        ("Bare", r"act returned a ndarray, but must return \(action, state\)"),
+        ("Breaking", r"robot 'python:.*:Breaking': act fails: IndexError: only integers.*\.py:\d+"),
+        ("Unbegun", "robot 'python:.*:Unbegun': initial_state fails: KeyError: 'hand'"),
+        ("Ragged", "robot 'python:.*:Ragged': cannot answer .ValueError: setting an array element"),
+        ("Guessing", "answers the same observations in two ways: export its mean action"),
+        ("Mixing", "answers differently in another row of the batch"),
     ],
 )
 def test_what_is_no_robot_is_refused(module, factory, message):
@@ -142,19 +176,21 @@ def test_what_is_no_robot_is_refused(module, factory, message):
         load(f"python:{module()}:{factory}")
 
 
-@pytest.mark.parametrize(
-    ("factory", "message"),
-    [
-        ("Many", r"step 1: answers an array of shape \(2, 4\), but the task takes \(2, 1\)$"),
-        ("Chooser", "step 1: answers whole numbers, as for discrete actions"),
-        ("Bare", r"act returned a ndarray, but must return \(action, state\)"),
-        ("Breaking", r"step 1: act fails: IndexError: only integers.*\(.*\.py:\d+\)$"),
-    ],
-)
-def test_what_is_no_action_is_refused_at_the_first_step(module, factory, message):
-    policy = load(f"python:{module()}:{factory}")
+def test_an_error_in_a_later_step_names_robot_and_step(module):
+    text = SOURCE + "\nclass Tiring(Robot):\n    def act(self, observation, state, rng):\n"
+    text += "        assert (observation < 5).all(), 'too far'\n        return state, state\n"
+    policy = load(f"python:{module(text)}:Tiring")
+    _, state = policy.act(np.zeros((2, 2)), policy.initial_state(2), None)
+    message = r"robot 'python:.*:Tiring', step 2: act fails: AssertionError: too far"
     with pytest.raises(UserError, match=message):
-        policy.act(np.zeros((2, 2)), policy.initial_state(2), None)
+        policy.act(np.full((2, 2), 9.0), state, None)
+
+
+def test_a_robot_that_writes_on_what_it_sees_changes_nothing_for_others(module):
+    policy = load(f"python:{module()}:Scribbling")
+    seen = np.ones((2, 2), np.float32)
+    policy.act(seen, policy.initial_state(2), None)
+    np.testing.assert_array_equal(seen, np.ones((2, 2)))
 
 
 @pytest.mark.parametrize(

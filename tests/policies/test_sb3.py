@@ -13,6 +13,7 @@ from gymnasium import spaces
 from rigid.errors import UserError
 from rigid.policies.loading import load_policy, policy_hash
 from rigid.policies.opening import Opening
+from rigid.policies.sb3_spaces import from_space
 from rigid.tasks.protocol import AgentSpec
 from tests.policies.spaces import Walk, replayed
 from tests.toys import ToyReach
@@ -147,6 +148,20 @@ def test_a_forgotten_normaliser_is_named_where_it_lies_or_was_in_training(here, 
     caplog.clear()
     load(vecnormalize=here / "ppo_vecnormalize_16_steps.pkl")
     assert caplog.text == ""
+
+
+@pytest.mark.parametrize(("name", "space"), [("SAC", LINE), ("DQN", spaces.Discrete(3))])
+def test_nobody_who_learned_without_a_normaliser_is_told_of_one(here, caplog, name, space):
+    model = trained(name, space, learning_starts=4)
+    model.learn(8)
+    model.save(here / "arm.zip")
+    load(task_=task(3) if name == "DQN" else None)
+    assert caplog.text == ""
+
+
+def test_choices_count_from_zero_wherever_the_space_starts():
+    found = from_space(np.array([0, 2]), spaces.Discrete(3, start=5))
+    np.testing.assert_array_equal(found, [0, 2])
 
 
 def test_the_hash_follows_file_statistics_and_frames(here):

@@ -117,6 +117,15 @@ def test_another_robot_than_the_measured_one_is_refused(run, tmp_path):
 
 
 @pytest.mark.slow
+def test_a_robot_that_the_user_names_may_be_code_and_one_that_the_run_names_may_not(run):
+    with pytest.raises(UserError, match="there is no module 'no_such_arm'"):
+        take_lesson([run], SETTINGS, robot="python:no_such_arm:make")
+    frontier = json.loads((run / "frontier.json").read_text())
+    (run / "frontier.json").write_text(json.dumps(frontier | {"robot": "python:no_such_arm:make"}))
+    with pytest.raises(UserError, match="would run code that a file names: name it yourself"):
+        take_lesson([run], SETTINGS)
+
+
 def test_two_rounds_search_the_robot_between_with_seeds_of_their_own(run, tmp_path):
     out = tmp_path / "robust"
 

@@ -71,6 +71,19 @@ class Boastful(ToyWorld):
         return super().summary()._replace(success=np.full(self.batch, 2.0))
 
 
+class Moody(ToyWorld):
+    """Measures nothing after a reset, which is its right, and something else at every step."""
+
+    def reset(self, seeds):
+        self._steps = 0
+        return super().reset(seeds)._replace(info={})
+
+    def step(self, robot_action, human_action):
+        self._steps += 1
+        step = super().step(robot_action, human_action)
+        return step._replace(info={f"mood_{self._steps % 2}": np.zeros(self.batch)})
+
+
 @pytest.mark.parametrize(
     ("world", "message"),
     [
@@ -83,6 +96,7 @@ class Boastful(ToyWorld):
         (Misshapen, r"features has shape \(3, 1\) after a step, but must have \(3, 2\)"),
         (Runaway, "reward is not finite after a step; a world that runs away sets faulted"),
         (Boastful, "success must be 0, 1 or NaN"),
+        (Moody, "info changes its names: mood_0, mood_1"),
     ],
 )
 def test_a_world_that_breaks_a_promise_is_told_which(world, message):

@@ -61,6 +61,7 @@ def _again(command: ExportCommand, episodes: CanonicalEpisodes) -> View:
     from rigid.compute.completing import complete
     from rigid.compute.recorded import play_again
     from rigid.data.minari_files import View
+    from rigid.policies.discrete import taken
     from rigid.policies.loading import load_policy
     from rigid.policies.opening import Opening
 
@@ -85,6 +86,7 @@ def _again(command: ExportCommand, episodes: CanonicalEpisodes) -> View:
     human = command.agent == "human"
     seen = played.human_observation if human else played.robot_observation
     done = played.human_action if human else played.robot_action
+    done = taken(done, task.human if human else task.robot)
     seen, done, reward = (array.swapaxes(0, 1) for array in (seen, done, played.reward))
     if human:  # What was recorded stands, to its last digit.
         seen = seen if episodes.observations is None else episodes.observations

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import tyro
 
+from rigid.commands.keypoint_exporting import check_figure, draw_keypoints, line_of
 from rigid.commands.naming import OpeningOptions
 from rigid.commands.onnx_exporting import write_onnx
-from rigid.commands.parsing import at_least, printable
+from rigid.commands.parsing import at_least
 from rigid.commands.serve_exporting import write_serve
 from rigid.errors import UserError
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 _shown_as = tyro.conf.arg
 _OF_RUNS = ("point", "episode", "side_by_side", "keypoints")
 _OF_PAIRS = ("robot", "human", "seed", "onnx", "agent", "trust", "vecnormalize", "frames")
+_OF_FILMS = ("human", "seed", "trust", "vecnormalize", "frames", "size", "fps", "speed")
 _FINEST = 240
 """Pictures per second; more is no film. Ours."""
 _SMALLEST, _LARGEST = 64, 4096
@@ -103,7 +105,7 @@ class ExportCommand(OpeningOptions):
         if self.video is not None:
             _film(self, self.video)
         if self.keypoints is not None and self.directory is not None:
-            _draw_keypoints(self.directory, self.task, self.keypoints)
+            draw_keypoints(self.directory, self.task, self.keypoints)
         return 0
 
     def _check_options(self) -> None:
@@ -122,14 +124,20 @@ class ExportCommand(OpeningOptions):
         reason = (
             "needs a run directory" if self.directory is None else "goes without a run directory"
         )
-        for option in idle:
-            if getattr(self, option) != getattr(ExportCommand, option):
-                raise UserError(f"--{option.replace('_', '-')} {reason}")
+        self._refuse_given(idle, reason)
+        if self.directory is None and self.video is None:
+            self._refuse_given(_OF_FILMS, "is for --video FILE")
         at_least("--seed", self.seed, 0)
         if self.video is not None:
             self._check_film(self.video)
         if self.keypoints is not None:
-            _check_figure(self.keypoints)
+            check_figure(self.keypoints)
+
+    def _refuse_given(self, options: tuple[str, ...], reason: str) -> None:
+        """Refuses options that would be ignored."""
+        for option in options:
+            if getattr(self, option) != getattr(ExportCommand, option):
+                raise UserError(f"--{option.replace('_', '-')} {reason}")
 
     def _check_film(self, path: Path) -> None:
         from rigid.report.encode import check_format
@@ -143,7 +151,7 @@ def _film(options: ExportCommand, path: Path) -> None:
     scene, shown = _episode(options)
     settings = _settings(options)
     length = _write_film(path, scene, shown, settings, side_by_side=options.side_by_side)
-    print(f"{_line(shown)}, {length:.1f} s: {path}")
+    print(f"{line_of(shown)}, {length:.1f} s: {path}")
 
 
 def _episode(options: ExportCommand) -> tuple[Mapping[str, Any], Shown]:
@@ -213,39 +221,3 @@ def _write_film(
     with writing_to(path, "--video"):
         write_atomically(path, data)
     return count / settings.fps
-
-
-def _check_figure(path: Path) -> None:
-    from rigid.report.keypoints import FORMATS
-
-    if path.suffix.lower() not in FORMATS:
-        raise UserError(f"--keypoints {path}: figures end in .pdf, .svg or .png")
-
-
-def _draw_keypoints(directory: Path, task: str | None, path: Path) -> None:
-    """Draws and stores the figure of a run's failures."""
-    from rigid.commands.progress import TerminalListener
-    from rigid.files import write_atomically, writing_to
-    from rigid.report import sources
-    from rigid.report.keypoints import keypoint_figure, save_figure
-
-    run = sources.open_run(directory, task)
-    points = sources.worst_by_band(run.frontier.points)
-    episodes = []
-    with TerminalListener("drawing") as listener:
-        listener.expect(len(points) + 1)
-        for point in points:
-            episodes.append(sources.stored(run, point, "worst"))
-            listener.advance(1)
-        data = save_figure(keypoint_figure(run.scene, episodes), path.suffix)
-        listener.advance(1)
-    with writing_to(path, "--keypoints"):
-        write_atomically(path, data)
-    for shown in episodes:
-        print(_line(shown))
-    print(path)
-
-
-def _line(shown: Shown) -> str:
-    """An episode's title in one line."""
-    return printable(shown.title.replace("\n", ", "))

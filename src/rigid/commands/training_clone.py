@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
@@ -102,6 +102,7 @@ def _tell(found: Cloned) -> None:
         f"{likely.mean_action:.2f}, last action again {likely.last_action:.2f}\n"
         f"naturalness with the robot: {played['naturalness']:.3f}"
         f" ± {_text(played['naturalness_se'])} (1: no referee tells it from the people)\n"
+        f"{_held_out(played['held_out'])}"
         f"return: {_text(played['return'])}, recorded {_text(found.recorded['return'])}; success: "
         f"{_text(played['success'])}, recorded {_text(found.recorded['success'])}"
     )
@@ -109,6 +110,15 @@ def _tell(found: Cloned) -> None:
         print(f"note: {remark}")
     for problem in found.problems:
         print(f"NOT A STAND-IN: {problem}")
+
+
+def _held_out(found: Mapping[str, Any] | None) -> str:
+    if found is None:
+        return ""
+    return (
+        f"against the {found['episodes']} held-out episodes alone: {found['naturalness']:.3f}"
+        f" ± {_text(found['naturalness_se'])}\n"
+    )
 
 
 def _text(value: float | None) -> str:

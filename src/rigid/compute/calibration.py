@@ -69,19 +69,32 @@ def calibrate(
         UserError: Bad input, or sabotage that does not lower the return beyond noise.
     """
     subject = replace(subject, return_range=provisional_range(subject))
+    recorded = _recorded_returns(subject)  # Damaged files are told before the training.
     frontier = measure_robot(
         subject, preset, out=run, lambdas=(SABOTAGE,), executor=executor, listener=listener
     )
     listener.say(f"playing {EPISODES} canonical episodes")
     returns = {"canonical": [canonical_returns(subject, EPISODES, _SEED)]}
-    recorded = _recorded_returns(subject)
     if recorded is not None:
         returns["recorded"] = [recorded]
     returns["sabotage"] = returns_at(frontier, SABOTAGE)
+    found = _range_file(subject, preset, frontier, run, returns)
+    write_atomically(out, json_text(found, indent=1).encode())
+    return found
+
+
+def _range_file(
+    subject: Subject,
+    preset: Preset,
+    frontier: Frontier,
+    run: Path,
+    returns: Mapping[str, Sequence[Float[np.ndarray, " _n"]]],
+) -> dict[str, Any]:
+    """What the file holds, given the returns of each kind of play."""
     natural = returns.get("recorded", returns["canonical"])[0]
     worst, best = range_of_returns(returns["sabotage"], natural)
     identity = read_settings(RunDirectory(run))["identity"]
-    found = {
+    return {
         "format": FORMAT,
         "kind": "return-range",
         "task": dict(subject.task.describe()),
@@ -100,8 +113,6 @@ def calibrate(
         "date": datetime.now(UTC).date().isoformat(),
         "provenance": provenance(command_line()),
     }
-    write_atomically(out, json_text(found, indent=1).encode())
-    return found
 
 
 def provisional_range(subject: Subject) -> ReturnRange:
@@ -171,7 +182,7 @@ def range_of_returns(
     """
     worst, error = mean_and_error(sabotage)
     best, natural_error = mean_and_error([natural])
-    if deviations_below(sabotage, natural) < DEVIATIONS:
+    if not deviations_below(sabotage, natural) >= DEVIATIONS:  # NaN is not.
         raise UserError(
             f"λ = 0 earns {worst:.4g} ± {error:.2g} and canonical play {best:.4g} ± "
             f"{natural_error:.2g} (mean return and its standard error), so sabotage does not lower "
@@ -217,9 +228,10 @@ def _at(frontier: Frontier, lambda_: float | str) -> list[Mapping[str, Any]]:
 
 
 def _recorded_returns(subject: Subject) -> Float[np.ndarray, " _n"] | None:
-    """Returns of people, None where the canonical data are not recorded from any."""
+    """Known returns of people; None where fewer than two are, or the data are not of people."""
     path = canonical_path(subject)
     if path is None:
         return None
     episodes = load_episodes(path, task=subject.task)
-    return np.asarray(episodes.returns) if episodes.source == "recorded" else None
+    known = episodes.returns[np.isfinite(episodes.returns)]
+    return np.asarray(known) if episodes.source == "recorded" and len(known) > 1 else None

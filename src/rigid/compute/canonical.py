@@ -65,13 +65,28 @@ def divide_recorded(
             "record more, since fewer cannot tell natural from unnatural"
         )
     order = np.random.default_rng(_SHUFFLE_SEED).permutation(count)
-    shown = min(search, count // _SEARCH_SHARE)
+    shown = _shown(count, search)
     referee = pick(episodes, order[shown:])
     if count > MOST_FOR_FOLDS:
         crossed: tuple[Fold, ...] = (Fold(*np.array_split(referee.features, 3)),)
     else:
         crossed = split_in_folds(referee.features, folds)
     return Divided(pick(episodes, order[:shown]), referee, crossed, slice(None), episodes)
+
+
+def _shown(count: int, search: int) -> int:
+    return min(search, count // _SEARCH_SHARE)
+
+
+def trained_on(count: int, *, search: int, folds: int) -> int:
+    """How many of `count` recorded episodes train each referee, on average and rounded down.
+
+    Example:
+        >>> trained_on(40, search=40, folds=4)
+        13
+    """
+    left = count - _shown(count, search)
+    return -(-left // 3) if count > MOST_FOR_FOLDS else left * (folds - 2) // folds
 
 
 def pick(episodes: CanonicalEpisodes, which: np.ndarray) -> CanonicalEpisodes:

@@ -10,15 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 
-from rigid.compute.canonical import FEWEST, MOST_FOR_FOLDS
+from rigid.compute.canonical import FEWEST, pick
+from rigid.compute.clone_judging import clone_naturalness, held_out_naturalness, play_clone
 from rigid.compute.endings import ended, measure
-from rigid.compute.scoring import naturalness_of, play_with
 from rigid.data.episodes import CanonicalEpisodes, data_hash
 from rigid.errors import UserError
 from rigid.learning.censored import CENSORED
@@ -32,11 +31,6 @@ from rigid.learning.cloning import (
     compare,
     divide,
 )
-from rigid.learning.rollout import Trajectories, policy_actor
-from rigid.naturalness.features import DEFAULT, choose_features
-from rigid.naturalness.panel import Fold, split_in_folds, train_panel
-from rigid.naturalness.referee import RefereeSettings
-from rigid.naturalness.views import Episodes
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
@@ -46,8 +40,6 @@ NATURAL = 0.8
 should not even end. Ours: the start of the range of `auc_natural`."""
 UNSURE = 0.05
 """Standard error of naturalness from which on it is told to be uncertain. Ours."""
-_SHARES = (0.4, 0.15, 0.45)
-"""Of the played episodes: training and validation of the referee, and what it judges. Ours."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +52,8 @@ class Cloned:
     recorded: dict[str, float | None]
     """Mean return and success of the recorded episodes; None where unknown."""
     played: dict[str, Any]
-    """The same of the clone with the robot, with its naturalness at all levels."""
+    """The same of the clone with the robot, with its naturalness at all levels, and in `held_out`
+    its naturalness against people it was not cloned from; None where those are too few."""
     sha256: str
     """Of the episodes."""
     clipped: float
@@ -86,6 +79,11 @@ class Cloned:
     def remarks(self) -> list[str]:
         """What to know about it."""
         found = []
+        if self.played["held_out"] is None:
+            found.append(
+                f"fewer than {FEWEST} held-out episodes: its naturalness is mostly against the "
+                "very people that it was cloned from"
+            )
         if self.likelihoods.last_action > self.likelihoods.clone:
             found.append(
                 "doing the last action again foresees people better: what they do depends on more "
@@ -110,11 +108,6 @@ class Cloned:
             "clipped_actions": self.clipped, "recorded": self.recorded, "played": self.played,
             "problems": self.problems, "remarks": self.remarks, "canonical": self.sha256,
         }  # fmt: skip
-
-
-class _Played(NamedTuple):
-    episodes: Trajectories
-    features: np.ndarray
 
 
 def clone_human(
@@ -153,10 +146,11 @@ def clone_human(
     steps = episodes.features.shape[1]
     policy = GaussianPolicy(parameters)
     say(f"playing {rollouts} episodes with the robot")
-    played = _play(task, robot, policy, rollouts, seed)
+    played = play_clone(task, robot, policy, rollouts, seed)
     say("training referees that tell the clone from the recorded people")
     found = {
-        **_naturalness(task, episodes, played, seed),
+        **clone_naturalness(task, episodes, played, seed),
+        "held_out": held_out_naturalness(task, pick(episodes, parts.test), played, seed),
         **measure(ended(played.episodes), slice(None), task, task.return_range),
     }
     actions = episodes.actions
@@ -206,44 +200,6 @@ def _pairs(episodes: CanonicalEpisodes, which: np.ndarray) -> Pairs:
     return Pairs(
         jnp.asarray(seen.reshape(-1, seen.shape[2])), jnp.asarray(done.reshape(-1, done.shape[2]))
     )
-
-
-def _play(task: Task, robot: Policy, human: Policy, rollouts: int, seed: int) -> _Played:
-    rng = np.random.default_rng([seed, 2])
-    starts = rng.integers(2**31, size=rollouts)
-    episodes = play_with(task, robot, policy_actor(human, rollouts, rng), starts)
-    chosen = choose_features(DEFAULT, task)
-    features = chosen.of(episodes.features, episodes.human_observation, episodes.human_action)
-    return _Played(episodes, features.swapaxes(0, 1))
-
-
-def _naturalness(
-    task: Task, recorded: CanonicalEpisodes, played: _Played, seed: int
-) -> dict[str, Any]:
-    """Of the clone, by referees of its own that are cross-fitted on every recorded episode.
-
-    On all of them and not on the held-out ones alone: a referee with less data errs towards
-    natural. The clone saw what people did in the others, never how they moved from step to step.
-    """
-    assert recorded.observations is not None
-    assert recorded.actions is not None
-    chosen = choose_features(DEFAULT, task)
-    features = chosen.of(recorded.features, recorded.observations, recorded.actions)
-    features = features[np.random.default_rng([seed, 3]).permutation(len(features))]
-    settings = RefereeSettings()
-    if len(features) > MOST_FOR_FOLDS:
-        folds: tuple[Fold, ...] = (Fold(*np.array_split(features, 3)),)
-    else:
-        folds = split_in_folds(features, settings.folds)
-    sound = played.episodes.weight.swapaxes(0, 1) > 0
-    ends = np.cumsum(np.round(np.array(_SHARES) * len(sound)).astype(int))
-    everyone = Episodes(played.features, sound)
-    train, validation, judged = (
-        everyone.part(slice(low, high))
-        for low, high in ((0, ends[0]), (ends[0], ends[1]), (ends[1], None))
-    )
-    panel = train_panel(folds, train, validation, settings, jax.random.key(seed))
-    return naturalness_of(panel, judged)
 
 
 def _mean(values: np.ndarray) -> float | None:

@@ -15,7 +15,6 @@ from jaxtyping import Bool, Float
 
 from rigid.compute.recorded import RETURN_TOLERANCE, play_again
 from rigid.data.episodes import CanonicalEpisodes
-from rigid.errors import UserError
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 
@@ -64,11 +63,6 @@ def complete(task: Task, robot: Policy, episodes: CanonicalEpisodes, *, where: P
     Raises:
         UserError: Nobody recorded actions, or the seeds.
     """
-    if episodes.provenance.get("seeds") == "numbered":
-        raise UserError(
-            f"{where} has no column 'seed', so nobody knows how its episodes began, and a robot "
-            "cannot play them again: leave --robot out, or record the seeds"
-        )
     played = play_again(task, robot, episodes, where=where)
     same = _alike(played.features, episodes.features) & (played.faulted == 0)
     if episodes.observations is not None:  # They show the robot, which features do not.

@@ -35,12 +35,12 @@ class Pool(NamedTuple):
 
     training: Float[np.ndarray, "E1 T f"]
     disturbed: Float[np.ndarray, "E2 T f"]
-    """Get noise, and are not canonical any more; 6 or more."""
+    """Get noise, and are not canonical any more; 3 or more, of which each use gets one."""
     held_out: Float[np.ndarray, "E3 T f"]
 
 
 def divide(episodes: Float[np.ndarray, "E T f"]) -> Pool:
-    """Half of the episodes train, a quarter is disturbed, a quarter is held out."""
+    """Half of the episodes train, a quarter is disturbed, a quarter is held out; 12 or more."""
     order = np.random.default_rng(0).permutation(len(episodes))
     half, rest = np.split(episodes[order], [len(episodes) // 2])
     return Pool(half, *np.array_split(rest, 2))

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from rigid.compute.calibration import returns_at
-from rigid.compute.canonical import FEWEST, chosen_features
+from rigid.compute.canonical import FEWEST, chosen_features, trained_on
 from rigid.compute.doctor_curve import Pool, divide, learning_curve
 from rigid.compute.listening import Listener
 from rigid.compute.subject import Subject, canonical_path
@@ -24,6 +24,7 @@ from rigid.errors import UserError
 from rigid.frontier.result import Frontier
 from rigid.learning.rollout import Actor, policy_actor
 from rigid.naturalness.features import Features
+from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.passive import PassivePolicy
 from rigid.policies.protocol import Policy
 from rigid.presets import Preset
@@ -62,15 +63,22 @@ class Canonical(NamedTuple):
     source: str
     features: Float[np.ndarray, "E T f"] | None
     """None where they are recorded when the search begins."""
+    trained: int
+    """Episodes that a judge is trained on: the search's all, but each referee only a part."""
 
 
 def given_episodes(subject: Subject, features: Features, preset: Preset) -> Canonical:
     """The user's canonical episodes, or as many as the search will record."""
     path = canonical_path(subject)
     if path is None:
-        return Canonical(preset.search_canonical, "synthetic", None)
+        return Canonical(preset.search_canonical, "synthetic", None, preset.search_canonical)
     episodes = load_episodes(path, task=subject.task)
-    return Canonical(len(episodes), episodes.source, chosen_features(features, episodes, path))
+    count = trained = len(episodes)
+    if episodes.source == "recorded":
+        search, folds = preset.search_canonical, RefereeSettings().folds
+        trained = trained_on(count, search=search, folds=folds)
+    seen = chosen_features(features, episodes, path)
+    return Canonical(count, episodes.source, seen, trained)
 
 
 def players_of(human: Policy, episodes: int) -> dict[str, Actor]:
@@ -107,7 +115,7 @@ def data_verdict(
         ).features  # fmt: skip
         pool = Pool(*np.split(everything, [_TRAINING, _TRAINING + _DISTURBED]))
     curve = learning_curve(pool, strangers=strangers, say=listener.say)
-    return check_data(given.episodes, curve, source=given.source)
+    return check_data(given.episodes, curve, source=given.source, trained=given.trained)
 
 
 def search_verdicts(

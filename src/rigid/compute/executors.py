@@ -95,7 +95,8 @@ def on_this_machine(searches: int, env_steps: int, luggage: Any) -> Executor:
         env_steps: Training steps of all of them.
         luggage: What workers would have to be sent; where it cannot be, this process does it all.
     """
-    from rigid.compute.processes import Processes, can_be_sent, cores
+    from rigid.compute.processes import Processes, can_be_sent
+    from rigid.cores import cores
 
     count = min(len(cores()), searches)
     if count == 1 or env_steps < WORTH_PROCESSES or not can_be_sent(luggage):

@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from rigid.compute.canonical import (
+    FEWEST,
     Divided,
     chosen_features,
     divide_recorded,
@@ -189,21 +190,28 @@ def deviation(reward: Float[np.ndarray, "*n"]) -> float:
 def _canonical_block(
     range_: ReturnRange, canonical: Divided, human_play: Trajectories
 ) -> dict[str, Any]:
-    """The canonical point; where nobody recorded what people returned, that of their human."""
-    returns = canonical.referee.returns[canonical.anchor]
-    recorded = not np.isnan(returns).any()
+    """The canonical point; where too few returns of people are known, that of their human."""
+    returns = _known(canonical.referee.returns[canonical.anchor])
+    recorded = len(returns) > 0
     if not recorded:
         returns = human_play.returns[human_play.faulted == 0]
-    success = float(np.mean(canonical.referee.success[canonical.anchor]))
+    success = _known(canonical.referee.success[canonical.anchor])
     return {
-        "success": None if np.isnan(success) else success,
+        "success": float(success.mean()) if len(success) else None,
         "return": float(returns.mean()),
         "adversarialness": float(adversarialness(returns, range_.ends).mean()),
         "episodes": len(canonical.search),
         "episodes_referee": len(canonical.referee),
         "source": canonical.search.source,
         "return_source": "episodes" if recorded else "human",
+        "return_episodes": len(returns),
     }
+
+
+def _known(values: Float[np.ndarray, " E"]) -> Float[np.ndarray, " _n"]:
+    """Those that are known; none where some are not and fewer than `FEWEST` are."""
+    known: Float[np.ndarray, " _n"] = values[np.isfinite(values)]
+    return known if len(known) >= min(FEWEST, len(values)) else np.zeros(0)
 
 
 def settings_for(

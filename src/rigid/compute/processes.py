@@ -26,18 +26,12 @@ from rigid.compute.process_worker import (
     work,
 )
 from rigid.compute.seed_search import SeedSearch
+from rigid.cores import cores
 from rigid.errors import UserError
 
 GAIN_OF_PROCESSES = 1.4
 """Work of a process for each core, over that of one process on all of them (measured on two)."""
 _PATIENCE = 0.5  # Seconds until the next look at what workers say.
-
-
-def cores() -> list[int]:
-    """The cores that this process may use, by number where the system numbers them."""
-    if hasattr(os, "sched_getaffinity"):
-        return sorted(os.sched_getaffinity(0))
-    return list(range(os.cpu_count() or 1))
 
 
 def can_be_sent(thing: Any) -> bool:

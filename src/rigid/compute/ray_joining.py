@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from rigid.compute.processes import cores
+from rigid.cores import cores
 from rigid.errors import UserError
 
 _PATIENCE = 5.0  # Seconds for a TCP connection.

@@ -91,7 +91,7 @@ def replay_recording(
         where: Its file, for messages.
 
     Raises:
-        UserError: Nobody recorded the human's actions.
+        UserError: Nobody recorded the human's actions, or the seeds.
     """
     states: list[np.ndarray] = []
     world = task.make_world(len(recording))
@@ -124,8 +124,13 @@ def play_again(
         watch: Called with the step number (0 after the reset) and the step.
 
     Raises:
-        UserError: Nobody recorded the human's actions.
+        UserError: Nobody recorded the human's actions, or the seeds.
     """
+    if recording.provenance.get("seeds") == "numbered":
+        raise UserError(
+            f"{where} has no column 'seed', so nobody knows how its episodes began, and a robot "
+            "cannot play them again: leave the robot out, or record the seeds"
+        )
     if recording.actions is None:
         raise UserError(
             f"{where} holds no actions of the human, so nobody can see its episodes again: record "

@@ -17,11 +17,12 @@ from rigid.compute.group import GroupInputs, GroupPlan, json_lambda, training_st
 from rigid.compute.identity import settings_identity
 from rigid.compute.listening import Listener, Silence
 from rigid.compute.preparation import Prepared, lambdas_of, passive_reference, prepare, seeds_of
-from rigid.compute.processes import GAIN_OF_PROCESSES, cores
+from rigid.compute.processes import GAIN_OF_PROCESSES
 from rigid.compute.provenance import command_line
 from rigid.compute.run_directory import OpenRun, alone_in, check_place, check_same, open_run
 from rigid.compute.seed_search import SeedSearch
 from rigid.compute.subject import Subject, load_robot
+from rigid.cores import cores
 from rigid.files import json_text, write_atomically
 from rigid.frontier.result import load_frontier, measured_points
 from rigid.frontier.statistics import summarize_seeds

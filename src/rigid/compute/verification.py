@@ -203,7 +203,7 @@ def referee_naturalness(
 def _shift(rested: Rested) -> float:
     """Mean offset: the task shows the human nothing, so the mean action is one number."""
     action, _ = GaussianPolicy(rested.policy).act(np.zeros((1, 1), np.float32), (), None)
-    return float(REACH * action[0, 0])
+    return float(REACH * np.clip(action[0, 0], -1.0, 1.0))
 
 
 def _row(case: Case, lambda_: float, found: Sequence[Naturalness]) -> dict[str, Any]:

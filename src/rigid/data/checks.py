@@ -92,6 +92,27 @@ def check_values(
             raise UserError(
                 f"{where}: {name} are infinite, first in episode {episode}: give NaN where unknown"
             )
+    _check_success(arrays, where)
+    _check_seeds(arrays, where)
+
+
+def _check_success(arrays: Mapping[str, np.ndarray], where: Path) -> None:
+    success = arrays.get("success", np.zeros(0))
+    odd = np.flatnonzero(~(np.isnan(success) | (success == 0) | (success == 1)))
+    if len(odd):
+        raise UserError(
+            f"{where}: success of episode {odd[0]} is {success[odd[0]]:g}, but must be 1 or 0 by "
+            "the task's criterion, or NaN where nobody knows"
+        )
+
+
+def _check_seeds(arrays: Mapping[str, np.ndarray], where: Path) -> None:
+    seeds = arrays.get("seeds", np.zeros(0, dtype=np.int64))
+    odd = np.flatnonzero(seeds < 0)
+    if len(odd):
+        raise UserError(
+            f"{where}: the seed of episode {odd[0]} is {seeds[odd[0]]}, but must be 0 or more"
+        )
 
 
 def _check_lengths(arrays: Mapping[str, np.ndarray], where: Path) -> None:

@@ -43,7 +43,7 @@ class Column(BaseModel):
     value: float | None = None
     """The same number everywhere, in place of a column."""
     equals: str | None = None
-    """1 where the column holds this text, else 0."""
+    """1 where the column holds this text, else 0; unknown where it is empty."""
     unit: str | None = None
     """What the column is measured in, one of `UNITS`; converted to what tasks measure in."""
     scale: float = 1.0
@@ -55,6 +55,9 @@ class Column(BaseModel):
             raise ValueError('give either "from" (a column) or "value" (a number)')
         if self.unit is not None and self.unit not in UNITS:
             raise ValueError(f"unit {self.unit!r} is unknown, known are {', '.join(UNITS)}")
+        beside = sorted({"value", "unit", "scale", "offset"} & self.model_fields_set)
+        if self.equals is not None and beside:
+            raise ValueError(f'"equals" gives 1 or 0, so leave "{beside[0]}" out')
         return self
 
     @property

@@ -185,7 +185,7 @@ def _joined(
         seeds=np.array(seeds if known else np.arange(len(takes)), dtype=np.int64),
         returns=np.array([_return(*pair, cut) for pair in zip(takes, steps, strict=True)],
                          dtype=np.float32),
-        success=np.array([take.ends.get(SUCCESS, np.nan) for take in takes], dtype=np.float32),
+        success=np.array([_told_of_whole(take, SUCCESS, cut) for take in takes], dtype=np.float32),
         task=task.describe(), feature_names=tuple(task.feature_names), source="recorded",
         provenance={"seeds": "recorded" if known else "numbered"},
         control_period=control_period(task), rewards=rewards,
@@ -195,11 +195,15 @@ def _joined(
 
 def _return(take: Take, steps: Steps, cut: frozenset[str]) -> float:
     """Of the steps that are kept; NaN where nobody knows."""
-    # What was told of the whole says nothing of a part.
-    told = np.nan if take.name in cut else take.ends.get(RETURN, np.nan)
+    told = _told_of_whole(take, RETURN, cut)
     if np.isfinite(told) or steps.rewards is None:
         return told
     return float(steps.rewards.sum())
+
+
+def _told_of_whole(take: Take, name: str, cut: frozenset[str]) -> float:
+    """What was told of a whole episode; of a part of it that says nothing, so NaN."""
+    return np.nan if take.name in cut else take.ends.get(name, np.nan)
 
 
 def _told(

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from rigid.data.layout import Layout
+from rigid.data.layout import SEED, Layout
 from rigid.data.resampling import Steps
 from rigid.data.takes import Take
 from rigid.tasks.protocol import Task
@@ -20,6 +20,9 @@ from rigid.tasks.protocol import Task
 LONGEST_GAP = 1.5
 """Times between two samples that are longer than this many typical ones, and than a control period,
 are gaps: half a sample of jitter is usual, a lost sample is not. Ours."""
+SLOWEST = 3
+"""Control periods between two samples of a recording that is too slow to show what people did at
+each step. Ours: four samples a second still show a reach of a second, one does not."""
 FROZEN_SHARE = 0.5
 """A signal that moves in most episodes and holds the very same number for this share of an episode
 is a sensor that froze: noise moves the last digits of one that lives. Ours."""
@@ -70,11 +73,14 @@ def judge_take(
         episode=take.name, participant=take.note().participant, rows=len(take.clock),
         seconds=round(span, 3) if sampled and np.isfinite(span) else None,
     )  # fmt: skip
-    verdict = verdict.refused(_mixed(take), _of_another_robot(take, robot))
+    verdict = verdict.refused(_mixed(take), _of_another_robot(take, robot), _seed(take))
     if verdict.used and sampled:
         # With a broken clock nothing else can be told.
         verdict = verdict.refused(
-            _clock(take) or _length(take, steps, period) or _gap(take, period)
+            _clock(take)
+            or _slow(take, period)
+            or _length(take, steps, period)
+            or _gap(take, period)
         )
     elif verdict.used:
         verdict = verdict.refused(_count(take, steps), _numbering(take))
@@ -128,6 +134,13 @@ def _of_another_robot(take: Take, robot: str | None) -> str | None:
     return f"met robot {met!r}, not {robot!r}" if robot is not None and met != robot else None
 
 
+def _seed(take: Take) -> str | None:
+    seed = take.ends.get(SEED, np.nan)
+    if np.isnan(seed) or (seed == np.round(seed) and 0 <= seed <= 2**53):  # Exact in a float.
+        return None
+    return f"seed {seed:g} is none: a seed is a whole number, 0 or more"
+
+
 def _clock(take: Take) -> str | None:
     if not np.isfinite(take.clock).all():
         return f"time is missing at row {int(np.argmin(np.isfinite(take.clock))) + 1}"
@@ -137,6 +150,22 @@ def _clock(take: Take) -> str | None:
         before, after = take.clock[row : row + 2]
         return f"time does not rise: row {row + 2} is at {after:g} s, after one at {before:g} s"
     return None
+
+
+def _slow(take: Take, period: float) -> str | None:
+    """A clock in another unit, or samples too far apart to tell one step from the next."""
+    if len(take.clock) < 2:
+        return None
+    typical = float(np.median(np.diff(take.clock)))
+    if typical <= SLOWEST * period * (1 + 1e-6):
+        return None
+    told = f"one sample every {typical:.4g} s, but a step of the task is {period:g} s"
+    # Nobody records motion at less than 1 Hz, and hardly at more than 1 kHz.
+    unit = next((name for least, name in ((1e6, "ns"), (1e3, "us"), (1.0, "ms"))
+                 if typical >= least), None)  # fmt: skip
+    if unit is None:
+        return f"{told}: record at {1 / (SLOWEST * period):.3g} Hz or more"
+    return f'{told}: is `time` in {unit}? give "unit": "{unit}" in --map'
 
 
 def _numbering(take: Take) -> str | None:

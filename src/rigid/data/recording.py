@@ -12,6 +12,7 @@ import numpy as np
 from rigid.data.episodes import CanonicalEpisodes
 from rigid.errors import UserError
 from rigid.learning.rollout import Trajectories, play, policy_actor
+from rigid.policies.discrete import taken
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task, World, control_period
 
@@ -103,7 +104,7 @@ def _keep(
     return CanonicalEpisodes(
         features=by_episode([block.features for block in played]),
         observations=by_episode([block.human_observation for block in played]),
-        actions=by_episode([block.human_action for block in played]),
+        actions=taken(by_episode([block.human_action for block in played]), task.human),
         seeds=np.concatenate([block.seeds for block in blocks])[kept],
         returns=np.concatenate([block.returns for block in played])[kept],
         success=np.concatenate([block.summary.success for block in played])[kept],

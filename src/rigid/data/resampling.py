@@ -64,10 +64,11 @@ def resample(
     def at(moments: np.ndarray, source: Source) -> np.ndarray:
         signal = take.signals[source.column]
         if source.rate:
-            ends = (np.clip(moments + side * period / 2, 0, clock[-1]) for side in (-1, 1))
-            low, high = ends
-            rise = np.interp(high, clock, signal) - np.interp(low, clock, signal)
-            return np.asarray(rise / (high - low))
+            # The last moment may lie behind the last sample, by up to a control period.
+            half = min(period, float(clock[-1])) / 2
+            centre = np.clip(moments, half, clock[-1] - half)
+            low, high = (np.interp(centre + side * half, clock, signal) for side in (-1, 1))
+            return np.asarray((high - low) / (2 * half))
         if source.column in labels:
             return np.asarray(signal[_nearest(clock, moments)])
         return np.asarray(np.interp(moments, clock, signal))

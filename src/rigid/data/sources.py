@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from pydantic import ValidationError
+
 from rigid.data.about import About
 from rigid.data.column_map import Column, ColumnMap
 from rigid.data.csv_files import read_beside
@@ -14,7 +16,7 @@ from rigid.data.importing import wanted_columns
 from rigid.data.layout import OBSERVATION
 from rigid.data.minari_files import PREFIX
 from rigid.data.minari_reading import read_minari
-from rigid.data.tables import read_tables
+from rigid.data.tables import check_map, read_tables
 from rigid.data.takes import Recording, takes_of
 from rigid.errors import UserError
 from rigid.tasks.protocol import Task, control_period
@@ -54,6 +56,7 @@ def open_source(spec: str, task: Task, map_: ColumnMap, *, rate: float | None) -
     if rate is not None and abs(rate * control_period(task) - 1) < 1e-6:
         rate = None  # The task's own: nothing to resample.
     tables, own = read_minari(spec.removeprefix(PREFIX), map_, rate=rate)
+    check_map(tables, map_, where=spec)
     seen = _seen_features(task, tables[0].names, map_, sampled=rate is not None)
     tables = [table._replace(map_={**seen, **map_}) for table in tables]
     recording = takes_of(tables, wanted, rate=rate, where=spec)
@@ -64,7 +67,14 @@ def _opened(recording: Recording, own: Mapping[str, Any]) -> Opened:
     """With what RIGID itself laid beside the episodes, if anything."""
     said, made_by = (own.get(part) for part in ("about", "provenance"))
     said, made_by = (part if isinstance(part, dict) else {} for part in (said, made_by))
-    about = About(consent=said.get("consent"), licence=said.get("licence"))
+    try:
+        about = About(consent=said.get("consent"), licence=said.get("licence"))
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise UserError(
+            f"what lies beside {recording.where} is damaged: about.{first['loc'][0]}: "
+            f"{first['msg']}; mend it, or take it away"
+        ) from None
     synthetic = own.get("source") == "synthetic"
     return Opened(recording, about, "synthetic" if synthetic else "recorded", made_by)
 

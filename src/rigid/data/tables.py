@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,7 +21,8 @@ from rigid.files import read_bytes
 
 _UNKNOWN = ("", "nan", "na", "n/a", "null", "none")
 """What people write where a number is missing, in small letters."""
-
+_SHOWN = 10
+"""Texts of a column that a message lists. Ours."""
 
 Cells = Sequence[Any] | np.ndarray
 """Texts as they stand in a file, or numbers."""
@@ -68,7 +69,7 @@ class Table(NamedTuple):
             return np.full(self.rows, column.value)
         cells = self.columns[column.source]
         if column.equals is not None:
-            return np.array([float(str(cell).strip() == column.equals) for cell in cells])
+            return np.array([_equal(str(cell).strip(), column.equals) for cell in cells])
         return self._parsed(column.source, cells) * column.factor + column.offset
 
     def _parsed(self, name: str, cells: Cells) -> Float[np.ndarray, " rows"]:
@@ -89,6 +90,42 @@ class Table(NamedTuple):
             ) from None
 
 
+def _equal(text: str, wanted: str) -> float:
+    if text == wanted:
+        return 1.0
+    return np.nan if text.lower() in {"", "nan"} else 0.0
+
+
+def check_map(tables: Sequence[Table], map_: ColumnMap, *, where: str) -> None:
+    """Refuses a map that takes from columns, or looks for texts, that are not there.
+
+    Raises:
+        UserError: A table lacks a column, or no table holds the text of an `equals`.
+    """
+    for table in tables:
+        for name, column in map_.items():
+            if column.source is not None and column.source not in table.columns:
+                raise UserError(
+                    f"{where}: {table.name} has no column {column.source!r}, from which the map "
+                    f"takes {name!r}; columns: {', '.join(table.columns)}"
+                )
+    for name, column in map_.items():
+        if column.source is None or column.equals is None:
+            continue
+        texts = {str(cell).strip() for table in tables for cell in table.columns[column.source]}
+        if column.equals not in texts:
+            raise UserError(
+                f"{where}: column {column.source!r} nowhere holds {column.equals!r}, from which "
+                f"the map takes {name!r}; it holds {_some(texts - {''})}"
+            )
+
+
+def _some(texts: Collection[str]) -> str:
+    shown = [repr(text) for text in sorted(texts)[:_SHOWN]]
+    more = len(texts) - len(shown)
+    return (", ".join(shown) or "nothing") + (f" and {more} others" if more > 0 else "")
+
+
 def read_tables(path: Path, map_: ColumnMap) -> list[Table]:
     """The tables of a CSV file, or of every CSV file in a folder.
 
@@ -98,7 +135,9 @@ def read_tables(path: Path, map_: ColumnMap) -> list[Table]:
     paths = sorted(path.glob("*.csv")) if path.is_dir() else [path]
     if not paths:
         raise UserError(f"{path} holds no .csv files: name a CSV file or a folder of them")
-    return [_read(file, map_) for file in paths]
+    tables = [_read(file, map_) for file in paths]
+    check_map(tables, map_, where=str(path))
+    return tables
 
 
 def _read(path: Path, map_: ColumnMap) -> Table:
@@ -114,12 +153,12 @@ def _read(path: Path, map_: ColumnMap) -> Table:
     except (ValueError, csv.Error):
         raise UserError(f"{path} is empty or no table: {cure}") from None
     names = [name.strip() for name in header]
-    _check(path, names, rows, map_)
+    _check(path, names, rows)
     columns = dict(zip(names, (list(column) for column in zip(*rows, strict=True)), strict=True))
     return Table(path.stem, columns, map_)
 
 
-def _check(path: Path, names: list[str], rows: list[list[str]], map_: ColumnMap) -> None:
+def _check(path: Path, names: list[str], rows: list[list[str]]) -> None:
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise UserError(f"{path} has two columns {twice!r}: name each one once")
@@ -130,10 +169,4 @@ def _check(path: Path, names: list[str], rows: list[list[str]], map_: ColumnMap)
             raise UserError(
                 f"{path}: row {number + 1} has {len(row)} cells, but the header {len(names)}: "
                 "write every row in full, with empty cells where nothing was measured"
-            )
-    for name, column in map_.items():
-        if column.source is not None and column.source not in names:
-            raise UserError(
-                f"{path} has no column {column.source!r}, from which the map takes {name!r}; "
-                f"columns: {', '.join(names)}"
             )

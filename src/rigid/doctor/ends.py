@@ -7,7 +7,7 @@ learned."
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,20 +51,8 @@ def check_ends(canonical: End, sabotage: End, natural: End) -> Verdict:
             "ends", "fail", f"λ = 0 does not break the task: it earns {low:.4g}, canonical play "
             f"{high:.4g}; {stays}.", "See the step on the reward.", evidence,
         )  # fmt: skip
-    if x < _TOLERABLE:
-        return Verdict(
-            "ends", "fail",
-            f"{stays}: an adversary that is paid for naturalness alone does not look canonical.",
-            "Leave out features that no policy can imitate (--features), record more canonical "
-            "episodes, or give adversaries a memory if what is natural depends on the past.",
-            evidence,
-        )  # fmt: skip
     if x < _NATURAL:
-        return Verdict(
-            "ends", "warn", f"{stays}, less than {_NATURAL:g}: the natural end of the curve is "
-            "out of reach.", "Search longer (--budget here, --preset paper later), or record more "
-            "canonical episodes.", evidence,
-        )  # fmt: skip
+        return _unnatural(x, stays, evidence)
     how = _how_broken(canonical, sabotage)
     if how is None:
         return Verdict(
@@ -82,6 +70,23 @@ def check_ends(canonical: End, sabotage: End, natural: End) -> Verdict:
             "to lose.", evidence,
         )  # fmt: skip
     return Verdict("ends", "pass", f"λ = 0 breaks the task ({how}), and {stays}.", "", evidence)
+
+
+def _unnatural(x: float, stays: str, evidence: Mapping[str, object]) -> Verdict:
+    """λ = ∞ leaves what is canonical."""
+    if x < _TOLERABLE:
+        return Verdict(
+            "ends", "fail",
+            f"{stays}: an adversary that is paid for naturalness alone does not look canonical.",
+            "Leave out features that no policy can imitate (--features), record more canonical "
+            "episodes, or give adversaries a memory if what is natural depends on the past.",
+            evidence,
+        )  # fmt: skip
+    return Verdict(
+        "ends", "warn", f"{stays}, less than {_NATURAL:g}: the natural end of the curve is "
+        "out of reach.", "Search longer (--budget here, --preset paper later), or record more "
+        "canonical episodes.", evidence,
+    )  # fmt: skip
 
 
 def _how_broken(canonical: End, sabotage: End) -> str | None:

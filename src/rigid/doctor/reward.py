@@ -62,6 +62,13 @@ def check_reward(play: Play) -> Verdict:
         )  # fmt: skip
     if not play.sabotage:
         return Verdict("reward", "skip", "Not examined: no adversary was trained.", "", evidence)
+    return _check_sabotage(play, canonical, share, evidence)
+
+
+def _check_sabotage(
+    play: Play, canonical: Float[np.ndarray, " E"], share: float, evidence: Mapping[str, Any]
+) -> Verdict:
+    """Whether λ = 0 has learned to lower what canonical play earns."""
     lowered = deviations_below(play.sabotage, canonical)
     mean, low = float(canonical.mean()), mean_and_error(play.sabotage)[0]
     hurtful = {

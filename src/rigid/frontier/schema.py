@@ -49,6 +49,13 @@ class PointBlock(_Part):
     on_frontier: bool
 
 
+class RangeBlock(_Part):
+    """The file of a calibrated range."""
+
+    name: str
+    sha256: str
+
+
 class FrontierFile(_Part):
     """The whole file."""
 
@@ -65,6 +72,8 @@ class FrontierFile(_Part):
     auc_interval: _Ends
     auc_by_seed: Annotated[dict[_Seed, Share], Field(min_length=1)]
     return_range: tuple[float, float]
+    range_source: str | None = None
+    range_file: RangeBlock | None = None
     env_steps: NonNegativeInt
     core_seconds: NonNegativeFloat
     wall_seconds: NonNegativeFloat

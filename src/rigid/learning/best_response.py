@@ -103,7 +103,7 @@ class _Lesson:
 
     def act(self, seen: np.ndarray) -> np.ndarray:
         advice, self._state = self._robot.act(seen[:, : self._visible], self._state, None)
-        self.taught.append(advice)
+        self.taught.append(np.clip(advice, -1.0, 1.0))
         action, _ = self._student.sample(seen, (), self._rng)
         return action
 

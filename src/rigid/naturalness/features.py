@@ -15,7 +15,16 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from rigid.errors import UserError
-from rigid.tasks.protocol import AgentSpec, Step, Summary, Task, World
+from rigid.policies.discrete import taken
+from rigid.tasks.protocol import (
+    AgentSpec,
+    Step,
+    Summary,
+    Task,
+    World,
+    control_period,
+    feature_units,
+)
 
 DEFAULT = "default"
 OBSERVATION = "observation"
@@ -31,6 +40,8 @@ class Features:
     names: tuple[str, ...]
     columns: tuple[int, ...]
     """Places among the task's own features, then the human's observation, then its action."""
+    choices: tuple[int, ...] = ()
+    """Of the human's discrete actions; see `AgentSpec.choices`."""
 
     def of(
         self,
@@ -43,9 +54,9 @@ class Features:
         Args:
             features: The task's own, of the state that a step led to.
             observation: What the human saw before the step.
-            action: What it did; clipped to [-1, 1], as the task does.
+            action: What it did; seen as the task takes it: clipped to [-1, 1], or the choices.
         """
-        acted = np.clip(action, -1.0, 1.0)
+        acted = taken(action, AgentSpec(0, action.shape[-1], choices=self.choices))
         seen = np.concatenate([features, observation, acted], axis=-1, dtype=np.float32)
         return seen[..., list(self.columns)]
 
@@ -59,7 +70,9 @@ def choose_features(text: str, task: Task) -> Features:
         task: Whose human is looked at.
 
     Raises:
-        UserError: A name is unknown or given twice.
+        UserError: A name is unknown or given twice, or observations and actions are chosen of a
+            task with `holds_after_end`: there they are held after an early end, and it has no
+            features of them.
     """
     own = tuple(task.feature_names)
     observed = _named(task.human.observation_names, "observation", task.human.observation_size)
@@ -68,14 +81,22 @@ def choose_features(text: str, task: Task) -> Features:
     if text == DEFAULT and own:
         return Features(DEFAULT, own, tuple(range(len(own))))
     # A task may declare them itself, since it knows better what they are where an episode is over.
-    first = 0 if own[: len(observed)] == observed and len(own) == len(observed + done) else len(own)
+    declared = own[: len(observed)] == observed and len(own) == len(observed + done)
+    first = 0 if declared else len(own)
     if text == OBSERVATION:
         chosen = range(first, first + len(observed))
     elif text in {DEFAULT, OBSERVATION_ACTION}:
         text, chosen = OBSERVATION_ACTION, range(first, first + len(observed + done))
     else:
         return _by_name([name.strip() for name in text.split(",")], task)
-    return Features(text, tuple(everything[place] for place in chosen), tuple(chosen))
+    if getattr(task, "holds_after_end", False) and not declared:
+        raise UserError(
+            f"features {text!r} of task {task.name!r} cannot be judged: an episode that ends early "
+            "is filled up, and what the human then observes and does is none of its motion: choose "
+            f"among {', '.join(own) or 'features that the task should declare'}"
+        )
+    names = tuple(everything[place] for place in chosen)
+    return Features(text, names, tuple(chosen), tuple(task.human.choices))
 
 
 def _by_name(wanted: list[str], task: Task) -> Features:
@@ -115,6 +136,9 @@ class _SeenTask:
         self.feature_names = features.names
         self.outcome_names = task.outcome_names
         self.return_range = task.return_range
+        self.control_period = control_period(task)
+        own = feature_units(task)
+        self.feature_units = {name: own[name] for name in features.names if name in own}
 
     def make_world(self, batch: int, *, threads: int = 0) -> World:
         return _SeenWorld(self._task, self._features, batch, threads)

@@ -76,7 +76,7 @@ class _Episodes:
     """One set of episodes, which the program knows by its number."""
 
     def __init__(self, session: Session[PolicyPromise]) -> None:
-        self.number, self.step = session.number(self), 0
+        self.session, self.number, self.step = session, session.number(self), 0
 
 
 class _Moment(NamedTuple):
@@ -98,7 +98,7 @@ class CommandModel:
         del batch
         if not self._promise.stateful:
             return ()
-        return _Moment(_Episodes(self._session.get(self._open)), 0)
+        return _Moment(_Episodes(self._open_session()), 0)
 
     def answer(
         self, observation: Float[np.ndarray, "B o"], memory: Any, rng: np.random.Generator | None
@@ -106,15 +106,20 @@ class CommandModel:
         """The program's answer.
 
         Raises:
-            UserError: The program ended, hangs, or answers no action.
-            ValueError: It has been asked for this step before, and has gone on since.
+            UserError: The program ended, hangs, or answers no action; or it has been asked for
+                this step before and has gone on since, or has ended since the episode began.
         """
         seed = int(rng.integers(2**63)) if self._promise.samples and rng is not None else None
         if not isinstance(memory, _Moment):
             return self._ask(observation, {"seed": seed}), memory
         episodes, step = memory
+        if episodes.session is not self._open_session():
+            raise UserError(
+                "the program ended in the middle of this episode, and another one knows nothing of "
+                "it: begin the episode again"
+            )
         if episodes.step != step:
-            raise ValueError(f"is at step {episodes.step}, and cannot go back to {step}")
+            raise UserError(f"is at step {episodes.step}, and cannot go back to {step}")
         found = self._ask(observation, {"seed": seed, "episodes": episodes.number})
         episodes.step += 1
         return found, _Moment(episodes, episodes.step)
@@ -127,12 +132,16 @@ class CommandModel:
     def _ask(
         self, observation: Float[np.ndarray, "B o"], fields: Mapping[str, Any]
     ) -> Shaped[np.ndarray, "..."]:
-        session = self._session.get(self._open)
+        session = self._open_session()
         session.send("act", fields, {"observation": observation.astype("<f4")})
         found = session.receive("action").arrays.get("action")
         if found is None:
             raise session.failure("answered without an action")
         return found
+
+    def _open_session(self) -> Session[PolicyPromise]:
+        """The running program; another one where it ended."""
+        return self._session.get(self._open, broken=lambda session: session.broken)
 
     def _open(self) -> Session[PolicyPromise]:
         return opened_again(self._command, self._promise)

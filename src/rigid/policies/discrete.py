@@ -88,7 +88,28 @@ def actions_of(
     if len(broken):
         shown = np.array2string(answer[broken[0]], precision=3, threshold=8)
         raise ValueError(f"answers actions that are not finite, in world {broken[0]}: {shown}")
-    return np.clip(answer.astype(np.float64), -1.0, 1.0)
+    return taken(answer.astype(np.float64), spec)
+
+
+def taken(action: Float[np.ndarray, "*n a"], spec: AgentSpec) -> Float[np.ndarray, "*n a"]:
+    """What a task makes of an action, in [-1, 1]: clipped reals, or what the largest scores choose.
+
+    Scores are compared before anything is clipped, or all beyond 1 would be alike.
+
+    Example:
+        >>> taken(np.array([0.5, 2.0, 3.0]), AgentSpec(1, 3))
+        array([0.5, 1. , 1. ])
+        >>> taken(np.array([0.5, 2.0, 3.0]), AgentSpec(1, 3, choices=(3,)))
+        array([-1., -1.,  1.])
+    """
+    if not spec.choices:
+        clipped: np.ndarray = np.clip(action, -1.0, 1.0)
+        return clipped
+    rows = action.reshape(-1, spec.action_size)
+    blocks = np.split(rows, np.cumsum(spec.choices)[:-1], axis=1)
+    chosen = np.stack([block.argmax(axis=1) for block in blocks], axis=1)
+    scores = scores_of(chosen, spec.choices).astype(action.dtype)
+    return scores.reshape(action.shape)
 
 
 def _shape(array: np.ndarray) -> str:

@@ -79,7 +79,10 @@ class ForeignPolicy:
 
     def initial_state(self, batch: int) -> ForeignState:
         """The state before the first step."""
-        return ForeignState(np.zeros(batch, np.int64), self._model.begin(batch))
+        try:
+            return ForeignState(np.zeros(batch, np.int64), _begin(self._model, batch))
+        except UserError as error:
+            raise UserError(f"{self._label}: {error}") from None
 
     def act(
         self,
@@ -93,7 +96,7 @@ class ForeignPolicy:
             UserError: The model fails, or answers something that is no action of the task.
         """
         try:
-            answer, memory = self._model.answer(observation, state.memory, rng)
+            answer, memory = _ask(self._model, observation, state.memory, rng)
             action = actions_of(answer, self._sizes, len(observation))
         except (ValueError, UserError) as error:
             raise UserError(f"{self._label}, step {state.steps[0] + 1}: {error}") from None
@@ -136,6 +139,32 @@ def first_line(error: Exception) -> str:
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
+def _begin(model: Model, batch: int) -> Any:
+    """What a model remembers before the first step; whatever it raises becomes a `UserError`."""
+    try:
+        return model.begin(batch)
+    except UserError:
+        raise
+    except Exception as error:  # noqa: BLE001 - Models of anybody's making may raise anything.
+        raise UserError(f"cannot begin an episode ({first_line(error)})") from None
+
+
+def _ask(
+    model: Model,
+    observation: Float[np.ndarray, "B o"],
+    memory: Any,
+    rng: np.random.Generator | None,
+) -> tuple[Shaped[np.ndarray, "..."], Any]:
+    """A model's answer to a copy of the observation, which it may write on; errors as `_begin`."""
+    try:
+        answer, after = model.answer(np.array(observation, np.float32), memory, rng)
+        return np.asarray(answer), after
+    except UserError:
+        raise
+    except Exception as error:  # noqa: BLE001 - Models of anybody's making may raise anything.
+        raise UserError(f"cannot answer ({first_line(error)})") from None
+
+
 def open_model(model: Model, wanted: Wanted, observation_size: int | None) -> ForeignPolicy:
     """A policy of a model that can be asked at any time; it is, to learn what it answers.
 
@@ -150,7 +179,8 @@ def open_model(model: Model, wanted: Wanted, observation_size: int | None) -> Fo
     """
     sees = observation_size or wanted.sizes.observation_size
     try:
-        answer, _ = model.answer(np.zeros((_TRIALS, sees), np.float32), model.begin(_TRIALS), None)
+        shown_zeros = np.zeros((_TRIALS, sees), np.float32)
+        answer, _ = _ask(model, shown_zeros, _begin(model, _TRIALS), None)
         does = _action_size(answer, wanted.sizes)
     except (ValueError, UserError) as error:
         shown = "" if observation_size else f" (shown {sees} numbers, as the {wanted.agent} sees)"
@@ -177,7 +207,7 @@ def _check_rows(model: Model, wanted: Wanted, sees: int) -> None:
     if not np.allclose(once, again, atol=_TOLERANCE, rtol=_TOLERANCE, equal_nan=True):
         raise UserError(
             f"{wanted.label} answers the same observations in two ways: export its mean action, "
-            "with what it remembers as inputs and outputs"
+            "with what it remembers as inputs and outputs, none of it inside"
         )
     others = -observation
     others[-1] = observation[0]  # The same world in another row, among others.
@@ -194,8 +224,8 @@ def _two_steps(
 ) -> Shaped[np.ndarray, "B ..."]:
     """Answers in the second step of an episode, so that memory takes part."""
     try:
-        memory = model.begin(len(observation))
-        _, memory = model.answer(observation, memory, None)
-        return model.answer(observation, memory, None)[0]
-    except (ValueError, UserError) as error:
+        memory = _begin(model, len(observation))
+        _, memory = _ask(model, observation, memory, None)
+        return _ask(model, observation, memory, None)[0]
+    except UserError as error:
         raise UserError(f"{wanted.label}: {error}") from None

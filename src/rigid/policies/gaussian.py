@@ -83,9 +83,11 @@ class GaussianPolicy:
         state: Float[np.ndarray, "B past"] | tuple[()],
         rng: np.random.Generator | None,
     ) -> tuple[Float[np.ndarray, "B a"], Float[np.ndarray, "B past"] | tuple[()]]:
-        """Mean action, plus Gaussian noise when `rng` is given, clipped to [-1, 1]."""
-        action, state = self.sample(observation, state, rng)
-        return np.clip(action, -1.0, 1.0), state
+        """Mean action, plus Gaussian noise when `rng` is given.
+
+        Not clipped: that is the task's, which alone knows whether these are reals or scores.
+        """
+        return self.sample(observation, state, rng)
 
     def sample(
         self,
@@ -93,7 +95,7 @@ class GaussianPolicy:
         state: Float[np.ndarray, "B past"] | tuple[()],
         rng: np.random.Generator | None,
     ) -> tuple[Float[np.ndarray, "B a"], Float[np.ndarray, "B past"] | tuple[()]]:
-        """As `act`, without the clip: what PPO needs to know the density of an action."""
+        """The same, for training: PPO needs to know the density of an action."""
         window = stack_history(observation, state)
         action = np.asarray(_jitted_mean(self.parameters, window), dtype=np.float64)
         if rng is not None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -57,7 +58,7 @@ def load_policy(
             `torchscript:FILE.pt`, `exec:COMMAND` or `python:MODULE:FACTORY` (docs/policies.md).
         task: The task it has to fit.
         agent: Whom it acts for.
-        opening: How files of other libraries are opened.
+        opening: How files of other libraries are opened; its normaliser and frames are the robot's.
 
     Raises:
         UserError: There is no such policy, its files are damaged or may run code and are not
@@ -65,6 +66,8 @@ def load_policy(
             another number of things than `task` asks for.
     """
     wanted = Wanted(spec, agent, task)
+    if agent == "human":
+        opening = replace(opening, vecnormalize=None, frames=1)
     if agent == "robot" and not spec.startswith("sb3:"):
         _check_unused(opening, wanted)
     policy = _open(wanted, opening)
@@ -78,12 +81,12 @@ def _open(wanted: Wanted, opening: Opening) -> Policy:
         return PassivePolicy(task.human.observation_size, task.human.action_size)
     if spec.startswith(_BUILTIN):
         return _load_builtin(spec.removeprefix(_BUILTIN), task, agent)
-    if Path(spec).is_dir():
-        return _load_directory(Path(spec), wanted)
-    if spec.lower().endswith(_ONNX) and spec.partition(":")[0] not in _KINDS:
-        return _onnx(spec, wanted, opening)
     kind, colon, place = spec.partition(":")
-    if not colon or kind not in _KINDS:
+    if not colon or kind not in _KINDS:  # No command is asked for on the disk.
+        if os.path.isdir(spec):  # noqa: PTH112 - Path's raises where a name is too long.
+            return _load_directory(Path(spec), wanted)
+        if spec.lower().endswith(_ONNX):
+            return _onnx(spec, wanted, opening)
         raise UserError(f"{wanted.label} {_why_unknown(spec, task, agent)}")
     if _KINDS[kind].runs_code and not opening.named_by_user:
         raise UserError(f"{wanted.label} would run code that a file names: name it yourself")
@@ -203,7 +206,8 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
 def native_directory(spec: str, task: Task) -> Iterator[Path | None]:
     """Where a policy that `load_policy` takes lies in the native format; None if it does not."""
     if not spec.startswith(_BUILTIN):
-        yield Path(spec) if (Path(spec) / CARD_FILE).is_file() else None
+        there = os.path.isfile(Path(spec) / CARD_FILE)  # noqa: PTH113 - As in `_open`.
+        yield Path(spec) if there else None
         return
     entry = BUNDLED / task.name / spec.removeprefix(_BUILTIN)
     if not (entry / CARD_FILE).is_file():

@@ -1,10 +1,10 @@
 """A native policy as an ONNX graph: normaliser, memory and clip inside, the contract in metadata.
 
-Inputs and outputs, B worlds: `observation` [B, o] → `action` [B, a] in [-1, 1], the mean action. A
-policy with memory K has two states as well, both zero before the first step: `history`
-[B, (K - 1) o], the observations before, newest first, and `begun` [B, 1], 1 from the second step on
-(before it the first observation stands for those that are missing). They become `history_next` and
-`begun_next`.
+Inputs and outputs, B worlds: `observation` [B, o] → `action` [B, a], the mean action: reals in
+[-1, 1], or scores of choices, which are not clipped, since the task takes the largest. A policy
+with memory K has two states as well, both zero before the first step: `history` [B, (K - 1) o], the
+observations before, newest first, and `begun` [B, 1], 1 from the second step on (before it the
+first observation stands for those that are missing). They become `history_next` and `begun_next`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def to_onnx(stored: StoredPolicy, spec: AgentSpec) -> bytes:
 
     Args:
         stored: Policy and card.
-        spec: What its agent sees and does in the task it was trained for; for names.
+        spec: What its agent sees and does in the task it was trained for.
     """
     import onnx
     from onnx import helper
@@ -41,7 +41,10 @@ def to_onnx(stored: StoredPolicy, spec: AgentSpec) -> bytes:
     graph = _Graph()
     window, states = _window(graph, policy)
     mean = _mean(graph, policy, window)
-    graph.node("Clip", mean, graph.constant(-1.0), graph.constant(1.0), out="action")
+    if spec.choices:
+        graph.node("Identity", mean, out="action")
+    else:
+        graph.node("Clip", mean, graph.constant(-1.0), graph.constant(1.0), out="action")
     wide = (policy.memory - 1) * policy.observation_size
     sizes = {"observation": policy.observation_size, "action": policy.action_size}
     sizes |= {"history": wide, "history_next": wide, "begun": 1, "begun_next": 1}

@@ -44,9 +44,17 @@ def read_onnx(path: Path) -> OnnxFile:
         digest.update(read_bytes(place, cure=f"it holds weights of {path}; {_CURE}"))
     try:
         onnx.load_external_data_for_model(model, str(path.parent))
+        left = [
+            tensor.name for tensor in _tensors(model) if tensor.data_location == tensor.EXTERNAL
+        ]
         whole = model.SerializeToString()
     except (ValueError, RuntimeError, OSError, onnx.checker.ValidationError) as error:
         raise UserError(f"{path}: its external tensors cannot be read ({error}): {_CURE}") from None
+    if left:  # onnx does not read those of sparse weights.
+        raise UserError(
+            f"{path}: tensor {left[0]!r} lies in another file, from which onnx does not read it: "
+            "export the model with its weights inside"
+        )
     return OnnxFile(whole, digest.hexdigest())
 
 

@@ -99,9 +99,11 @@ class PalmPolicy:
         state: Float[np.ndarray, "B past"],
         rng: np.random.Generator | None,
     ) -> tuple[Float[np.ndarray, "B a"], Float[np.ndarray, "B past"]]:
-        """Mean action, plus Gaussian noise when `rng` is given, clipped to [-1, 1]."""
-        action, state = self.sample(observation, state, rng)
-        return np.clip(action, -1.0, 1.0), state
+        """Mean action, plus Gaussian noise when `rng` is given.
+
+        Not clipped: that is the task's, which alone knows whether these are reals or scores.
+        """
+        return self.sample(observation, state, rng)
 
     def sample(
         self,
@@ -109,7 +111,7 @@ class PalmPolicy:
         state: Float[np.ndarray, "B past"],
         rng: np.random.Generator | None,
     ) -> tuple[Float[np.ndarray, "B a"], Float[np.ndarray, "B past"]]:
-        """As `act`, without the clip: what PPO needs to know the density of an action."""
+        """The same, for training: PPO needs to know the density of an action."""
         window = stack_history(observation, state)
         action = np.asarray(_mean(self.parameters, window), dtype=np.float64)
         if rng is not None:

@@ -28,7 +28,7 @@ class Policy(Protocol):
         state: State,
         rng: np.random.Generator | None,
     ) -> tuple[Float[np.ndarray, "B a"], State]:
-        """Actions in [-1, 1] and the next state.
+        """Actions and the next state; a task takes reals beyond [-1, 1] as -1 or 1.
 
         Args:
             observation: What the agent sees in each world.

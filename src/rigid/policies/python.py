@@ -15,12 +15,12 @@ from jaxtyping import Float, Shaped
 
 from rigid.errors import UserError
 from rigid.factories import call_factory, find_module, told
-from rigid.policies.foreign import ForeignPolicy, Wanted
+from rigid.policies.foreign import ForeignPolicy, Wanted, open_model
 from rigid.policies.protocol import Fingerprinted
 
 
 def open_python(place: str, wanted: Wanted) -> ForeignPolicy:
-    """The policy that `FACTORY()` of `MODULE` gives.
+    """The policy that `FACTORY()` of `MODULE` gives; it is asked a few times.
 
     The module is looked for in the working directory, then among what is installed. The object has
     `initial_state(batch)` and `act(observation, state, rng)`, as in `rigid.policies.protocol`. Its
@@ -34,12 +34,13 @@ def open_python(place: str, wanted: Wanted) -> ForeignPolicy:
         UserError: There is no such module or factory, it fails, or gives something else.
     """
     model = PythonModel(place)
-    sizes = wanted.sizes
-    return ForeignPolicy(
-        model, wanted,
-        model.size("observation_size", sizes.observation_size),
-        model.size("action_size", sizes.action_size),
-    )  # fmt: skip
+    policy = open_model(model, wanted, model.size("observation_size"))
+    stated = model.size("action_size")
+    if stated not in {None, policy.action_size}:
+        raise UserError(
+            f"{wanted.label} states action_size {stated}, but answers {policy.action_size} numbers"
+        )
+    return policy
 
 
 class PythonModel:
@@ -63,11 +64,13 @@ class PythonModel:
                 raise UserError(f"{self._name}: its source was changed in the meantime")
         return self._made
 
-    def size(self, name: str, otherwise: int) -> int:
-        """A size that the object states, else the task's."""
-        found = getattr(self.object, name, otherwise)
-        if isinstance(found, bool) or not isinstance(found, int | np.integer):
-            raise UserError(f"{self._name}: {name} is {found!r}, but must be a number")
+    def size(self, name: str) -> int | None:
+        """A size that the object states; None if it does not."""
+        found = getattr(self.object, name, None)
+        if found is None:
+            return None
+        if isinstance(found, bool) or not isinstance(found, int | np.integer) or found < 1:
+            raise UserError(f"{self._name}: {name} is {found!r}, but must be a whole number from 1")
         return int(found)
 
     def begin(self, batch: int) -> Any:
@@ -83,7 +86,8 @@ class PythonModel:
             raise UserError(
                 f"act returned a {type(found).__name__}, but must return (action, state)"
             )
-        return np.asarray(found[0]), found[1]
+        action, after = found
+        return np.asarray(action), after
 
     def fingerprint(self) -> str:
         """SHA-256 over the name and the bytes of the module's file; see docs/policies.md."""

@@ -133,17 +133,24 @@ def _described(data: bytes, path: Path) -> dict[str, Any]:
 def _warn_of_statistics(path: Path, described: dict[str, Any], wanted: Wanted) -> None:
     """A policy that misses its normaliser acts, but badly: whoever forgot it should know."""
     beside = statistics_beside(path)
+    cure = f"say --vecnormalize {beside[0] if beside else 'FILE, a file that env.save(…) wrote'}"
+    if wanted.agent == "human":  # The option is the robot's.
+        cure = "convert it to ONNX with its statistics inside (docs/policies.md)"
     if beside:
         _log.warning(
             "rigid: %s: %s lies beside it. If the policy was trained behind VecNormalize it acts "
-            "wrongly without: say --vecnormalize %s", wanted.label, beside[0], beside[0],
+            "wrongly without: %s", wanted.label, beside[0], cure,
         )  # fmt: skip
-    elif described.get("_last_original_obs") is not None:
+    elif described.get("_last_original_obs") is not None and not _off_policy(described):
         _log.warning(
             "rigid: %s was trained behind VecNormalize. Unless that left observations as they "
-            "were, the policy acts wrongly without its statistics: say --vecnormalize FILE, a file "
-            "that env.save(…) wrote", wanted.label,
+            "were, the policy acts wrongly without its statistics: %s", wanted.label, cure,
         )  # fmt: skip
+
+
+def _off_policy(described: dict[str, Any]) -> bool:
+    """Whether it learned from a replay buffer: such models always keep their last observation."""
+    return "replay_buffer_class" in described
 
 
 def _build(data: bytes, path: str) -> Any:

@@ -48,10 +48,8 @@ def from_space(action: Shaped[np.ndarray, "B ..."], space: Any) -> Shaped[np.nda
     Raises:
         UserError: No task has such actions.
     """
-    if isinstance(space, spaces.Discrete):
-        return action.astype(np.int64) - int(space.start)
-    if isinstance(space, spaces.MultiDiscrete | spaces.MultiBinary):
-        return action.astype(np.int64)
+    if isinstance(space, spaces.Discrete | spaces.MultiDiscrete | spaces.MultiBinary):
+        return action.astype(np.int64)  # From 0 on: Stable-Baselines3 adds no `start`.
     if not isinstance(space, spaces.Box):
         raise UserError(f"acts in {_described(space)}, but tasks take a Box or discrete actions")
     flat = action.reshape(len(action), -1).astype(np.float64)

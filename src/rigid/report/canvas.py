@@ -170,6 +170,7 @@ def backend() -> str | None:
 
 def _works(name: str) -> bool:
     environment = {key: value for key, value in os.environ.items() if key != "MUJOCO_GL"}
-    trial = [sys.executable, "-c", _TRIAL.format(name)]
+    # -P: a folder in which RIGID happens to be run is no place to import from.
+    trial = [sys.executable, "-P", "-c", _TRIAL.format(name)]
     done = subprocess.run(trial, env=environment, capture_output=True, check=False)
     return done.returncode == 0

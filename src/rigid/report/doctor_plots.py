@@ -81,10 +81,12 @@ def _data(to: io.StringIO, evidence: Mapping[str, Any]) -> None:
             shares = point["shares"]
             axis.plot([point["episodes"]] * len(shares), shares, ".", color=COLOURS[0], alpha=0.5)
         axis.plot(sizes, [point["mean"] for point in curve], "-o", color=COLOURS[0], markersize=4)
-        mine = evidence["episodes"]
+        mine = evidence["trained"]
         axis.axvline(mine, color=COLOURS[1], linewidth=1.5, linestyle="--")
+        yours = evidence["episodes"]
         axis.annotate(
-            f" you have {mine}", (mine, 0.02), xycoords=("data", "axes fraction"),
+            f" you have {mine}" if mine == yours else f" {mine} of your {yours}",
+            (mine, 0.02), xycoords=("data", "axes fraction"),
             color=COLOURS[1], ha="left" if mine < sizes[-1] else "right",
         )  # fmt: skip
         axis.set_xscale("log")

@@ -31,7 +31,7 @@ from rigid.learning.personalisation import (
 from rigid.learning.ppo import PPOSettings
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import load_policy, policy_hash
-from rigid.policies.opening import NAMED_BY_FILE
+from rigid.policies.opening import NAMED_BY_FILE, SAFE
 from rigid.policies.protocol import Policy
 from rigid.robots.storing import (
     Checkpoint,
@@ -134,7 +134,10 @@ def take_lesson(
     task = task_from_description(identity["task"])
     if task is None:
         raise UserError(f"{runs[-1]} was measured on a task that is not RIGID's own")
-    measured = measured_robot(robot or str(frontier.data["robot"]), task, identity)
+    measured = measured_robot(
+        robot or str(frontier.data["robot"]), task, identity,
+        opening=SAFE if robot else NAMED_BY_FILE,
+    )  # fmt: skip
     if not isinstance(measured, GaussianPolicy):
         raise UserError(
             f"robot {frontier.data['robot']!r} is a {type(measured).__name__}, which cannot go on "

@@ -9,10 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
+from rigid.errors import UserError
+from rigid.files import json_text
 from rigid.learning.cooptimisation import CoOptimisationSettings
 from rigid.learning.personalisation import PersonalisationSettings
 from rigid.learning.rollout import play
-from rigid.policies.native import CARD_FILE
+from rigid.policies.native import CARD_FILE, load_card
+from rigid.robots.fitting import fitted
 from rigid.robots.pair import train_pair
 from rigid.robots.storing import Report, privileged_view
 from rigid.robots.vanilla import train_vanilla
@@ -44,18 +47,20 @@ def train_short_pair(task: Task, out: Path, *, showing: Showing) -> tuple[str, s
         Robot and human, as `load_policy` takes them.
 
     Raises:
-        UserError: `out` holds other trainings.
+        UserError: `out` holds other trainings, or a finished pair or robot of another task.
     """
     pair, robot = out / "pair", out / "robot"
+    for policy in (pair / "human", robot):
+        _check_made_in(task, policy)
     scale = _reward_scale(task)
     if not (pair / "human" / CARD_FILE).exists():
-        settings = replace(_PAIR, reward_scale=scale)
+        settings = fitted(replace(_PAIR, reward_scale=scale), task.horizon)
         with showing("co-optimising", settings.iterations) as report:
             train_pair(task, settings, seed=0, out=pair, report=report)
     if privileged_view(task) is task:
         return str(pair / "robot"), str(pair / "human")
     if not (robot / CARD_FILE).exists():
-        personal = replace(_ROBOT, reward_scale=scale)
+        personal = fitted(replace(_ROBOT, reward_scale=scale), task.horizon)
         with showing("personalising", personal.iterations) as report:
             train_vanilla(
                 task, personal, pair=pair, seed=0, out=robot, canonical_episodes=_EPISODES,
@@ -64,10 +69,22 @@ def train_short_pair(task: Task, out: Path, *, showing: Showing) -> tuple[str, s
     return str(robot), str(pair / "human")
 
 
+def _check_made_in(task: Task, policy: Path) -> None:
+    """Refuses a finished policy of another task, or of another version of this one."""
+    if not (policy / CARD_FILE).exists():
+        return
+    theirs = load_card(policy).task
+    if json_text(dict(theirs)) != json_text(dict(task.describe())):
+        raise UserError(
+            f"{policy} was trained in another task, or before this one was changed "
+            f"({theirs.get('name')!r}, now {task.name!r}): choose another directory with --out"
+        )
+
+
 def _reward_scale(task: Task) -> float:
     """What to multiply rewards with, whatever unit the task counts them in."""
     rng = np.random.default_rng(0)
-    worlds = _PAIR.episodes
+    worlds = fitted(_PAIR, task.horizon).episodes
     played = play(
         task, task.make_world(worlds), rng.integers(2**31, size=worlds),
         lambda _: rng.uniform(-1.0, 1.0, (worlds, task.robot.action_size)),

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import IO
 
 from rigid.errors import UserError
+from rigid.serving.environment import for_programs
 
 _GRACE = 2.0
 """Seconds that a program has to end by itself, and again after it was asked to. Ours."""
@@ -74,7 +75,7 @@ class Child:
             # A session of its own: Ctrl-C is RIGID's alone, and what it starts ends with it.
             self._process = subprocess.Popen(
                 words, cwd=command.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE, start_new_session=True,
+                stderr=subprocess.PIPE, start_new_session=True, env=for_programs(),
             )  # fmt: skip
         except OSError as error:
             where = command.folder if not command.folder.is_dir() else words[0]

@@ -244,10 +244,13 @@ def serve_task(
     spare: list[Any] = []
     sizes = (players[0]["observation_size"], players[1]["observation_size"], len(feature_names))
 
-    def reset(call: Frame, busy: Callable[[], None]) -> bytes:
-        seeds = call.arrays["seeds"]
+    def free(call: Frame) -> None:
         for number in call.fields["done_with"]:
             spare.extend(worlds.pop(number, []))
+
+    def reset(call: Frame, busy: Callable[[], None]) -> bytes:
+        free(call)
+        seeds = call.arrays["seeds"]
         envs = worlds.setdefault(call.fields["worlds"], [])
         table = _Table(len(seeds), sizes)
         for row, seed in enumerate(seeds):
@@ -259,6 +262,7 @@ def serve_task(
         return table.pack()
 
     def step(call: Frame, busy: Callable[[], None]) -> bytes:
+        free(call)
         running, envs = call.arrays["running"], worlds[call.fields["worlds"]]
         table = _Table(len(running), sizes)
         for row in np.flatnonzero(running).tolist():

@@ -198,12 +198,16 @@ class PerProcess(Generic[_Thing]):
     def __init__(self, opened: _Thing | None = None) -> None:
         self._opened, self._owner, self._lock = opened, os.getpid(), threading.Lock()
 
-    def get(self, open_it: Callable[[], _Thing]) -> _Thing:
-        """It, opened by `open_it` if it is not open here."""
+    def get(
+        self, open_it: Callable[[], _Thing], *, broken: Callable[[_Thing], bool] | None = None
+    ) -> _Thing:
+        """It, opened by `open_it` if it is not open here, or is `broken`."""
         with self._lock:
-            if self._opened is None or self._owner != os.getpid():
-                self._opened, self._owner = open_it(), os.getpid()
-            return self._opened
+            found = self._opened if self._owner == os.getpid() else None
+            if found is None or (broken is not None and broken(found)):
+                found = open_it()
+                self._opened, self._owner = found, os.getpid()
+            return found
 
     def __reduce__(self) -> tuple[Any, ...]:
         return PerProcess, ()

@@ -106,12 +106,13 @@ def _of_play(task: Task) -> Iterator[str]:
     yield from _of_step(task, step, "after a reset")
     if np.any(step.reward != 0):
         yield "reward is not 0 after a reset"
-    names = set(step.info)
+    names: set[str] | None = None  # A reset may measure nothing yet.
     for actions in _drawn(task, min(task.horizon, STEPS)):
         step = world.step(*actions)
         yield from _of_step(task, step, "after a step")
-        if set(step.info) != names and names:
-            yield f"info changes its names: {sorted(names ^ set(step.info))}"
+        names = set(step.info) if names is None else names
+        if set(step.info) != names:
+            yield f"info changes its names: {', '.join(sorted(names ^ set(step.info)))}"
     yield from _of_summary(task, world.summary())
     snapshot = world.snapshot()
     if snapshot.ndim != 2 or len(snapshot) != _BATCH:

@@ -184,6 +184,11 @@ def control_period(task: Task) -> float:
     return task.control_period if isinstance(task, Paced) else 0.1
 
 
+def feature_units(task: Task) -> Mapping[str, str]:
+    """What a task's features are measured in, by their names; empty where it says nothing."""
+    return task.feature_units if isinstance(task, NamesUnits) else {}
+
+
 def adversarialness(
     returns: Float[np.ndarray, " n"], return_range: Sequence[float]
 ) -> Float[np.ndarray, " n"]:

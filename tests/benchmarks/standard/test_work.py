@@ -10,7 +10,8 @@ from benchmarks.standard.making import Workplace
 from benchmarks.standard.plan import Part
 from benchmarks.standard.work import Work, search_seconds, training_seconds, work_of
 from rigid.compute.executors import Local
-from rigid.compute.processes import GAIN_OF_PROCESSES, Processes, cores
+from rigid.compute.processes import GAIN_OF_PROCESSES, Processes
+from rigid.cores import cores
 from tests.benchmarks.standard.planting import SMALL, VANILLA, store_robot
 
 STANDARD, PAPER = Part(VANILLA, "standard", 0), Part(VANILLA, "paper", 0)

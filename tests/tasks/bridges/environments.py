@@ -137,6 +137,45 @@ def nothing():
     return 5
 
 
+class Nameless(Line):
+    """Says who its agents are only after a reset, as PettingZoo allows."""
+
+    def __init__(self, **options):
+        super().__init__(**options)
+        self._names = self.possible_agents
+        del self.possible_agents
+
+    def reset(self, seed=None, options=None):
+        self.possible_agents = self._names
+        found = super().reset(seed, options)
+        del self.possible_agents
+        return found
+
+
+def nameless():
+    return Nameless(max_cycles=4)
+
+
+class Unsteady(Line):
+    """Goes wrong in one of several ways after a step."""
+
+    def step(self, actions):
+        found = super().step(actions)
+        if self._options["wrong"] == "size":
+            found[0]["human"] = np.zeros(3, np.float32)
+        elif self._options["wrong"] == "success":
+            found[4]["robot"]["is_success"] = 2
+        return found
+
+
+def growing():
+    return Unsteady(max_cycles=4, wrong="size")
+
+
+def very_successful():
+    return Unsteady(max_cycles=4, wrong="success")
+
+
 class Room(gymnasium.Env):
     """A robot and a person on a line. The person moves by its action, the robot towards it."""
 
@@ -178,6 +217,48 @@ def ported():
         actions=1,
         apply=env.apply_human_action,
         features=lambda: [env.person],
+        observe=lambda: [env.person],
+    )
+
+
+class Body(Room):
+    """Names what naturalness sees in another order after each step, and may grow."""
+
+    grows = False
+
+    def step(self, action):
+        self.steps = getattr(self, "steps", 0) + 1
+        return super().step(action)
+
+    def reset(self, *, seed=None, options=None):
+        self.steps = 0
+        return super().reset(seed=seed, options=options)
+
+    def human_features(self):
+        found = {"place": self.person, "steps": float(self.steps)}
+        if self.steps and self.grows:
+            found["tail"] = 0.0
+        return dict(reversed(found.items())) if self.steps % 2 else found
+
+
+def reordering():
+    return gymnasium.wrappers.TimeLimit(Body(), 5)
+
+
+def growing_body():
+    env = Body()
+    env.grows = True
+    return gymnasium.wrappers.TimeLimit(env, 5)
+
+
+def longer_row():
+    """Its features, a row without names, become more."""
+    env = Body()
+    return HumanPort(
+        env=gymnasium.wrappers.TimeLimit(env, 5),
+        actions=1,
+        apply=env.apply_human_action,
+        features=lambda: [0.0] * (1 + env.steps),
         observe=lambda: [env.person],
     )
 

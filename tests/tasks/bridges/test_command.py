@@ -8,6 +8,7 @@ import pytest
 
 from rigid.compute.evaluation import evaluate
 from rigid.errors import UserError
+from rigid.naturalness.features import choose_features
 from rigid.tasks.bridges.command import CommandTask
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import make_task, task_from_description
@@ -27,7 +28,7 @@ RACE = """
             assert self.place < 3, "was stepped after its end"
             self.place += 1
             see = [np.nan if self.seed == 13 else self.place], [float(self.seed)]
-            info = {"success": self.seed, "force": self.place, "note": "no number"}
+            info = {"success": self.place >= 2, "force": self.place, "note": "no number"}
             return (*see, -1.0, self.place == self.seed or self.place == 3, info)
 
     rigid_serve.serve_task(Race, horizon=4, robot=(1, 1), human=(1, 1), control_period=0.5)
@@ -48,6 +49,26 @@ CHOOSE = """
         Choose, horizon=1, robot=(1, 0), human=(1, 0), robot_choices=[3], human_choices=[2, 4]
     )
 """
+
+
+COUNTED = """
+    import rigid_serve
+
+    class Counted:
+        made = 0
+
+        def __init__(self):
+            Counted.made += 1
+
+        def reset(self, seed):
+            return [float(Counted.made)], [0.0]
+
+        def step(self, robot_action, human_action):
+            return [0.0], [0.0], 0.0, False, {}
+
+    rigid_serve.serve_task(Counted, horizon=3, robot=(1, 1), human=(1, 1))
+"""
+"""The robot sees how many environments there are."""
 
 
 @pytest.fixture
@@ -116,6 +137,18 @@ class TestWorlds:
         step = one.step(actions[0], actions[0])
         np.testing.assert_allclose(step.features[:, 0], 0.2)
 
+    def test_environments_of_worlds_that_are_gone_are_used_again_whoever_is_asked_next(self, task):
+        made = task(COUNTED)
+        kept = made.make_world(1, threads=1)
+        kept.reset(np.array([0]))
+        gone = made.make_world(1, threads=1)
+        gone.reset(np.array([0]))
+        del gone
+        kept.step(np.zeros((1, 1)), np.zeros((1, 1)))  # Is told of it instead of a reset.
+        step = made.make_world(2, threads=1).reset(np.array([0, 0]))
+        # One in the check of the task, whose environment `kept` took over; then gone's, then a new.
+        assert step.robot_observation.max() == 3
+
     def test_a_copy_in_another_process_starts_programs_of_its_own(self, reach):
         before = children()
         copy = pickle.loads(cloudpickle.dumps(reach))  # noqa: S301 - made on the line before.
@@ -136,6 +169,8 @@ class TestWorlds:
             np.array([[0.0, 0.2, 0.1], [-0.1, -0.2, -0.3]]),
             np.array([[0, 1, 0, 0, 0, 1], [1, 0, 0, 1, 0, 0]], dtype=float),
         )
+        shown = [[0, -1, 1, -1, -1, -1, 1], [0, 1, -1, -1, 1, -1, -1]]  # After what it observed.
+        np.testing.assert_array_equal(step.features, shown)
         np.testing.assert_array_equal(step.robot_observation, [[1], [0]])
         np.testing.assert_array_equal(step.human_observation, [[4], [1]])
 
@@ -154,7 +189,7 @@ class TestEndings:
         np.testing.assert_array_equal(summary.extra["steps"][:2], [1, 2])
 
     def test_success_is_what_was_said_last(self, race):
-        np.testing.assert_array_equal(race[1].success[:2], [1, 2])
+        np.testing.assert_array_equal(race[1].success[:2], [0, 1])
 
     def test_forces_are_counted_while_the_episode_lasts(self, race):
         np.testing.assert_array_equal(race[1].peak_force[:2], [1, 2])
@@ -163,6 +198,16 @@ class TestEndings:
     def test_an_episode_whose_numbers_are_not_finite_is_a_fault(self, race):
         np.testing.assert_array_equal(race[0][-1].faulted, [False, False, True])
         assert np.isfinite(race[0][-1].robot_observation).all()
+
+    def test_without_features_the_lived_steps_are_judged_by_what_was_seen_and_done(self, task):
+        made = task(RACE.replace("[float(self.seed)]", "[self.place]"))
+        assert made.feature_names == ("observation_0", "action_0")
+        assert choose_features("observation+action", made).columns == (0, 1)
+        world = made.make_world(1, threads=1)
+        world.reset(np.array([2]))
+        steps = [world.step(*np.full((2, 1, 1), action)) for action in (3.0, -0.5, 0.9, 0.9)]
+        lived = [[2, 1], [1, -0.5]]  # Begins with its seed; the last two actions did nothing.
+        np.testing.assert_array_equal([step.features[0] for step in steps], lived + lived)
 
     def test_what_is_never_measured_is_unknown(self, task):
         world = task(CHOOSE).make_world(1, threads=1)
@@ -203,6 +248,12 @@ class TestRefusals:
             task(RACE.replace(*change))
         assert str(caught.value).startswith("task 'exec:")
         assert message in str(caught.value)
+
+    def test_a_success_that_is_neither_0_nor_1_is_refused(self, task):
+        world = task(RACE.replace("self.place >= 2", "7")).make_world(1)
+        world.reset(np.array([1]))
+        with pytest.raises(UserError, match="answered success 7, but success is 1 or 0"):
+            world.step(np.zeros((1, 1)), np.zeros((1, 1)))
 
     def test_features_that_are_not_told_are_missed(self, task):
         world = task(RACE.replace("horizon=4", "horizon=4, feature_names=['x']")).make_world(1)

@@ -1,5 +1,6 @@
 """PettingZoo's environments as tasks: who plays whom, what they see, do and get."""
 
+import sys
 from itertools import pairwise
 
 import cloudpickle
@@ -37,6 +38,7 @@ def play(task, actions, *, seeds=(1, 2, 3)):
         ("beyond", {}),
         ("choosing", {}),
         ("taking_turns", {}),
+        ("nameless", {}),
     ],
 )
 def test_it_keeps_the_promises_of_a_task(factory, parameters):
@@ -125,9 +127,43 @@ def test_success_is_what_the_robots_info_says_last():
     assert np.isnan(summary.peak_force).all()
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize(
+    ("factory", "message"),
+    [
+        (
+            "growing",
+            r"at step 1 of the episode of seed 0: .*an observation has 3 numbers, but its .*2",
+        ),
+        ("very_successful", r"at step 1 of .*info has is_success 2, but must have 0 or 1"),
+    ],
+)
+def test_answers_that_are_not_as_promised_are_refused_with_their_place(factory, message, threads):
+    world = open_task(factory).make_world(16, threads=threads)
+    world.reset(np.arange(16))
+    with pytest.raises(UserError, match=message):
+        world.step(*np.zeros((2, 16, 1)))
+
+
 def test_the_horizon_may_be_shorter_and_longer_than_the_environments():
     assert open_task("two", horizon=2).horizon == 2
     assert open_task("short", horizon=20).horizon == 20
+
+
+def test_an_edited_module_is_another_task(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.path", sys.path[:])
+    text = "from tests.tasks.bridges.environments import room, two\n"
+    module = tmp_path / "edited_tasks.py"
+    names = ("pettingzoo:edited_tasks:two", "gymnasium:edited_tasks:room")
+    module.write_text(text)
+    before = [make_task(name).describe() for name in names]
+    assert [make_task(name).describe() for name in names] == before
+    module.write_text(text + "GAIN = 2\n")
+    for name, described in zip(names, before, strict=True):
+        now = make_task(name).describe()
+        assert now["version"] != described["version"]
+        assert {**now, "version": 0} == {**described, "version": 0}
 
 
 def test_the_control_period_is_that_of_its_pictures():

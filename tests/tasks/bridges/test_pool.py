@@ -5,12 +5,15 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from multiprocessing import Pipe
 
 import numpy as np
 import pytest
 
 from rigid.errors import UserError
+from rigid.tasks.bridges.desk import Sizes, serve
 from rigid.tasks.bridges.pool import FEWEST, Pool
 from rigid.tasks.registry import make_task
 
@@ -56,7 +59,7 @@ def test_environments_are_used_again_and_remember_nothing(task):
 
 
 def test_one_process_is_this_one():
-    pool = Pool(make_task(f"{HERE}:two")._opener, "name")
+    pool = Pool(make_task(f"{HERE}:two")._opener, "name", Sizes(2, 2, 3))
     for batch, threads in ((100, 1), (FEWEST, 4)):
         pool.lease(batch, threads).reset(np.arange(batch))
     assert pool._workers == []
@@ -94,6 +97,55 @@ def test_a_killed_process_is_noticed():
     task._pool._workers[0]._process.join()
     with pytest.raises(UserError, match="a process that steps its environments was killed"):
         world.step(*np.zeros((2, BATCH, 1)))
+
+
+def test_a_new_world_after_a_killed_process_has_a_new_one():
+    task = make_task(f"{HERE}:two")
+    expected = play(task, 2)
+    os.kill(task._pool._workers[1]._process.pid, signal.SIGKILL)
+    task._pool._workers[1]._process.join()
+    np.testing.assert_array_equal(play(task, 2), expected)
+
+
+@pytest.mark.parametrize("method", ["ask", "answer"])
+def test_answers_to_an_interrupted_question_are_never_taken_for_others(task, monkeypatch, method):
+    expected = play(task, 2)
+    world = task.make_world(BATCH, threads=2)
+    world.reset(np.arange(BATCH) + 50)
+    second = task._pool._workers[1]
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(second, method, interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        world.step(*np.zeros((2, BATCH, 1)))
+    np.testing.assert_array_equal(play(task, 2), expected)
+    with pytest.raises(UserError, match="was killed"):
+        world.reset(np.arange(BATCH))  # What was interrupted stays so.
+
+
+def test_whatever_goes_wrong_in_a_process_is_told_to_whoever_asked(monkeypatch):
+    monkeypatch.setattr("signal.signal", lambda *_: None)  # It would be this process' own.
+    ours, theirs = Pipe()
+    answers = []
+
+    def ask():
+        for _ in range(2):  # It still answers after an error.
+            ours.send(("reset", (0, np.arange(2))))
+            answers.append(ours.recv())
+        ours.close()
+
+    def opener():
+        raise KeyError("agent")
+
+    asking = threading.Thread(target=ask)
+    asking.start()
+    serve(theirs, opener, "task", Sizes(1, 1, 1))
+    asking.join()
+    theirs.close()
+    assert [rows for _, rows in answers] == [None, None]
+    assert all(error.startswith("task: KeyError: 'agent' (") for error, _ in answers)
 
 
 def test_processes_end_when_nobody_holds_the_task_any_more():

@@ -98,7 +98,7 @@ def test_a_blow_of_the_arm_is_an_unwanted_outcome(task, pressed):
     assert names == {"unwanted_contact"}
 
 
-def test_a_spoon_in_the_mouth_is_no_unwanted_contact(fed):
+def test_a_spoon_in_the_mouth_hardly_ever_touches_anything_else(fed):
     world, rows, _ = fed
     assert max(step.info["force_mouth"].max() for step in rows[1:]) > 0
     assert (world.summary().extra["unwanted_contact_steps"] < 5).all()

@@ -3,6 +3,7 @@
 import numpy as np
 
 from rigid.tasks.protocol import Task, World
+from rigid.tasks.registry import make_task
 from rigid.tasks.views.everything import SeeingEverything
 from tests.tasks.scripted import random_actions
 
@@ -24,6 +25,12 @@ def test_the_robot_sees_the_humans_numbers_after_its_own(task):
         assert step.robot_observation.shape[1] == view.robot.observation_size
     np.testing.assert_array_equal(world.summary().outcome, plain.summary().outcome)
     np.testing.assert_array_equal(world.snapshot(), plain.snapshot())
+
+
+def test_pace_and_units_are_the_tasks():
+    task = make_task("itch-scratching")
+    view = SeeingEverything(task)
+    assert (view.control_period, view.feature_units) == (task.control_period, task.feature_units)
 
 
 def test_its_description_is_not_that_of_the_task(task):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+
 import cloudpickle
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import pytest
 from rigid.errors import UserError
 from rigid.tasks.analytic.hand_tracking import HandTracking
 from rigid.tasks.protocol import BringsPolicies, DrawsFeatures, Task, VariesHumans
+from rigid.tasks.registry import make_task
 from rigid.tasks.views.ranged import with_range
 from tests.toys import ToyReach
 
@@ -39,6 +42,12 @@ def test_it_keeps_the_optional_protocols_of_the_task_and_no_others(ranged):
     assert set(ranged.builtin_policies("robot")) == {"tracker"}
     assert not isinstance(ranged, VariesHumans | DrawsFeatures)
     assert not isinstance(with_range(ToyReach(), (-1, 0)), BringsPolicies)
+
+
+def test_it_says_of_itself_what_the_task_says_and_not_only_when_asked():
+    view = with_range(make_task("itch-scratching"), (-100, 0))
+    for name in ("control_period", "feature_units", "bounds"):  # Python 3.12 looks here alone.
+        assert inspect.getattr_static(view, name) == getattr(view._task, name)
 
 
 def test_it_survives_a_journey_to_another_process(ranged):

@@ -6,7 +6,6 @@ it as there are threads.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
+from rigid.cores import cores
 from rigid.errors import UserError
 from rigid.serving.child import Command
 from rigid.serving.session import START_SECONDS, PerProcess, Session, opened_again
@@ -31,6 +31,8 @@ class CommandTask:
     """A two-player task that a program serves."""
 
     outcome_names: tuple[str, ...] = OUTCOMES
+    holds_after_end = True
+    """See `rigid.naturalness.features.choose_features`."""
 
     def __init__(self, text: str, *, seconds: float = START_SECONDS) -> None:
         """Starts the program and begins an episode twice.
@@ -50,7 +52,7 @@ class CommandTask:
         self._sessions = PerProcess([session])
         self.horizon = promise.horizon
         self.robot, self.human = promise.robot.spec(), promise.human.spec()
-        self.feature_names, self.feature_units = promise.feature_names, promise.feature_units
+        self.feature_names, self.feature_units = promise.seen_names, promise.feature_units
         self.return_range, self.control_period = promise.return_range, promise.control_period
         _check_starts(session)
 
@@ -61,13 +63,13 @@ class CommandTask:
         """
         sessions = self._sessions.get(list)
         sessions[:] = [session for session in sessions if not session.broken]
-        count = min(threads or _cores(), batch)
+        count = min(threads or len(cores()), batch)
         while len(sessions) < count:
             sessions.append(opened_again(self._command, self._promise))
         return CommandWorld(self._promise, batch, sessions[:count])
 
     def features(self, step: Step) -> Float[np.ndarray, "B features"]:
-        """What the program says that naturalness sees."""
+        """What the program says that naturalness sees; else what the human saw and then did."""
         return step.features
 
     def scene(self) -> None:
@@ -100,13 +102,6 @@ def _check_starts(session: Session[TaskPromise]) -> None:
             "begins two different episodes with the same seed",
             "its reset(seed) has to draw everything random from `seed`",
         )
-
-
-def _cores() -> int:
-    """The cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def open_command_task(text: str, parameters: Mapping[str, Any]) -> CommandTask:

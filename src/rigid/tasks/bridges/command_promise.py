@@ -53,6 +53,15 @@ class TaskPromise(Promise):
     return_range: tuple[float, float] | None
     control_period: Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
+    @property
+    def seen_names(self) -> tuple[str, ...]:
+        """Of what naturalness sees: the features, or what the human observes and does."""
+        if self.feature_names:
+            return self.feature_names
+        human = self.human
+        seen = human.observation_names or _numbered("observation", human.observation_size)
+        return (*seen, *_numbered("action", human.action_size))
+
     @model_validator(mode="after")
     def _fits(self) -> TaskPromise:
         if len(set(self.feature_names)) != len(self.feature_names):
@@ -61,3 +70,7 @@ class TaskPromise(Promise):
         if ends is not None and not (np.isfinite(ends).all() and ends[0] < ends[1]):
             raise ValueError(f"return_range must be (worst, best) with worst < best, got {ends}")
         return self
+
+
+def _numbered(kind: str, count: int) -> tuple[str, ...]:
+    return tuple(f"{kind}_{number}" for number in range(count))

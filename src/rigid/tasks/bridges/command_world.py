@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
+from rigid.policies.discrete import taken
 from rigid.serving.session import Session
 from rigid.tasks.bridges.command_promise import PlayerPromise, TaskPromise
 from rigid.tasks.bridges.padding import Moment, Padding
@@ -45,11 +46,14 @@ class CommandWorld:
         self._padding: Padding | None = None
         self._info: Mapping[str, np.ndarray] = {}
         self._peak = self._impulse = np.full(batch, np.nan)
+        self._seen = np.zeros((batch, promise.human.observation_size), np.float32)
 
     def reset(self, seeds: Int[np.ndarray, " B"]) -> Step:
         """Starts an episode in every world."""
         self._info, self._peak, self._impulse = {}, *np.full((2, self.batch), np.nan)
         moment = self._ask("reset", {"seeds": np.asarray(seeds, np.int64)}, self._shares)
+        self._seen = moment.human_observation
+        moment = self._looked_at(moment, np.zeros((self.batch, self._promise.human.action_size)))
         self._padding = Padding(self._promise.horizon, moment)
         return self._padding.first()
 
@@ -65,9 +69,10 @@ class CommandWorld:
             "running": running,
         }
         asked = [share for share in self._shares if running[share.rows].any()]
-        moment = self._ask("step", arrays, asked)
+        done = taken(human_action, self._promise.human.spec())
+        moment = self._looked_at(self._ask("step", arrays, asked), done)
         step = self._padding.after(moment)
-        self._info = step.info
+        self._info, self._seen = step.info, step.human_observation.copy()
         if "force" in moment.info:
             self._feel(np.where(running & ~step.faulted, moment.info["force"], np.nan))
         return step
@@ -86,6 +91,13 @@ class CommandWorld:
     def snapshot(self) -> Float[np.ndarray, "B 0"]:
         """Nothing to show."""
         return np.zeros((self.batch, 0))
+
+    def _looked_at(self, moment: Moment, done: Float[np.ndarray, "B a_h"]) -> Moment:
+        """With what the human saw before the step and did, where the program has no features."""
+        if self._promise.feature_names:
+            return moment
+        seen_and_done = np.hstack([self._seen, done]).astype(np.float32)
+        return moment._replace(features=seen_and_done)
 
     def _feel(self, force: Float[np.ndarray, " B"]) -> None:
         """Counts the force of a step; NaN is none."""
@@ -125,6 +137,10 @@ def _answered(share: _Share) -> dict[str, np.ndarray]:
         found = arrays[name].shape if name in arrays else None
         if found != shape:
             raise session.failure(f"answered {name} of shape {found}, but promised {shape}")
+    success = arrays.get(f"{_INFO}success", np.zeros(0))
+    strange = success[~np.isnan(success) & ~np.isin(success, (0, 1))]
+    if len(strange):
+        raise session.failure(f"answered success {strange[0]:g}, but success is 1 or 0")
     return {name: arrays[name] for name in wanted}
 
 

@@ -28,6 +28,14 @@ class Rows(NamedTuple):
     success: Float[np.ndarray, " B"]
 
 
+class Sizes(NamedTuple):
+    """How many numbers every environment of a task shows, at every step."""
+
+    robot: int
+    human: int
+    features: int
+
+
 class _Lease:
     """Environments that play one set of episodes."""
 
@@ -43,8 +51,8 @@ class Desk:
     An environment is slow to open, while an episode depends on its seed alone.
     """
 
-    def __init__(self, opener: Opener, name: str) -> None:
-        self._opener, self._name = opener, name
+    def __init__(self, opener: Opener, name: str, sizes: Sizes) -> None:
+        self._opener, self._name, self._sizes = opener, name, sizes
         self._spare: list[Playable] = []
         self._leases: dict[int, _Lease] = {}
 
@@ -97,7 +105,7 @@ class Desk:
 
     def _each(self, held: _Lease, rows: list[int], act: Callable[[int], Glimpse]) -> Rows:
         said = {row: self._guarded(held, row, act) for row in rows}
-        found = _blank(len(held.worlds), said[rows[0]])
+        found = _blank(len(held.worlds), self._sizes)
         for row, glimpse in said.items():
             for column, value in zip(found, glimpse, strict=True):
                 column[row] = value
@@ -105,7 +113,7 @@ class Desk:
 
     def _guarded(self, held: _Lease, row: int, act: Callable[[int], Glimpse]) -> Glimpse:
         try:
-            return act(row)
+            return self._fitting(act(row))
         except UserError:
             raise
         except Exception as error:  # noqa: BLE001 - Somebody else's code may raise anything.
@@ -115,13 +123,22 @@ class Desk:
                 f"{held.seeds[row]}: {told(error)}"
             ) from None
 
+    def _fitting(self, glimpse: Glimpse) -> Glimpse:
+        """What an environment said, if it is as large as at its first reset."""
+        shown = (glimpse.robot, glimpse.human, glimpse.features)
+        whose = ("the robot", "the human", "naturalness")
+        for who, numbers, size in zip(whose, shown, self._sizes, strict=True):
+            if np.shape(numbers) != (size,):
+                raise ValueError(
+                    f"it shows {who} {np.size(numbers)} numbers, but began with {size}"
+                )
+        return glimpse
 
-def _blank(batch: int, like: Glimpse) -> Rows:
-    def rows(one: np.ndarray) -> np.ndarray:
-        return np.zeros((batch, len(one)), np.float32)
 
+def _blank(batch: int, sizes: Sizes) -> Rows:
+    robot, human, features = (np.zeros((batch, size), np.float32) for size in sizes)
     return Rows(
-        rows(like.robot), rows(like.human), rows(like.features),
+        robot, human, features,
         np.zeros(batch), np.zeros(batch, bool), np.full(batch, np.nan),
     )  # fmt: skip
 
@@ -133,7 +150,7 @@ def _quiet() -> Iterator[None]:
         yield
 
 
-def serve(connection: Connection, opener: Opener, name: str) -> None:
+def serve(connection: Connection, opener: Opener, name: str, sizes: Sizes) -> None:
     """What a worker process does until whoever started it is gone: answers, one after the other.
 
     Args:
@@ -141,9 +158,10 @@ def serve(connection: Connection, opener: Opener, name: str) -> None:
             `free` has no answer.
         opener: Opens environments here.
         name: Of the task, for messages.
+        sizes: Of what its environments show.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # The interrupted parent closes the connection.
-    desk = Desk(opener, name)
+    desk = Desk(opener, name, sizes)
     try:
         while True:
             method, arguments = connection.recv()
@@ -154,6 +172,8 @@ def serve(connection: Connection, opener: Opener, name: str) -> None:
                 answer = (None, getattr(desk, method)(*arguments))
             except UserError as error:
                 connection.send((str(error), None))
+            except Exception as error:  # noqa: BLE001 - Whoever asked has to hear of it.
+                connection.send((f"{name}: {told(error)}", None))
             else:
                 connection.send(answer)
     except (EOFError, OSError):  # Nobody is there any more.

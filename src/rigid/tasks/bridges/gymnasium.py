@@ -18,7 +18,7 @@ from gymnasium import spaces
 from jaxtyping import Float, Float32
 
 from rigid.errors import UserError
-from rigid.factories import call_factory, told
+from rigid.factories import call_factory, source_fingerprint, told
 from rigid.tasks.bridges.playing import Glimpse, Rules, horizon_of, period_of, success_in
 from rigid.tasks.bridges.spaces import deed_of, sight_of
 from rigid.tasks.bridges.task import BridgeTask
@@ -73,7 +73,8 @@ def gymnasium_task(name: str, *, horizon: int | None = None) -> BridgeTask:
         horizon=horizon_of(player.env, horizon, name),
         control_period=period_of(player.env),
     )
-    return BridgeTask(name, {"horizon": rules.horizon}, opener, rules)
+    version = source_fingerprint(name, opener.folder)
+    return BridgeTask(name, {"horizon": rules.horizon}, opener, rules, version)
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,17 @@ class _Inhabited:
         return Glimpse(seen, human, features, reward, ended, success)
 
     def _features(self) -> Float32[np.ndarray, " f"]:
-        return _row(self._port.features())
+        """By the names of the first reset, whatever their order is now."""
+        found = self._port.features()
+        if isinstance(found, Mapping):
+            named = {str(name): value for name, value in found.items()}
+            if set(named) != set(self.feature_names):
+                raise ValueError(
+                    f"human features are {', '.join(named)}, but were "
+                    f"{', '.join(self.feature_names)} at the first reset"
+                )
+            found = [named[name] for name in self.feature_names]
+        return _row(found)
 
     def _human_sees(self, robot: np.ndarray, features: np.ndarray) -> Float32[np.ndarray, " h"]:
         if self._port.observe is not None:
@@ -182,5 +193,4 @@ def _feature_names(features: Any) -> tuple[str, ...]:
 
 
 def _row(numbers: Any) -> Float32[np.ndarray, " n"]:
-    values = list(numbers.values()) if isinstance(numbers, Mapping) else numbers
-    return np.asarray(values, dtype=np.float32).reshape(-1)
+    return np.asarray(numbers, dtype=np.float32).reshape(-1)

@@ -20,7 +20,7 @@ from pettingzoo import AECEnv
 from pettingzoo.utils import aec_to_parallel
 
 from rigid.errors import UserError
-from rigid.factories import call_factory
+from rigid.factories import call_factory, source_fingerprint
 from rigid.tasks.bridges.agents import checked_agents, divided
 from rigid.tasks.bridges.playing import Glimpse, Rules, horizon_of, period_of, success_in
 from rigid.tasks.bridges.side import Side
@@ -73,7 +73,7 @@ def pettingzoo_task(
     parameters = {
         "human_agent": ",".join(human), "robot_agent": ",".join(robot), "horizon": rules.horizon,
     }  # fmt: skip
-    return BridgeTask(name, parameters, opener, rules)
+    return BridgeTask(name, parameters, opener, rules, source_fingerprint(name, folder))
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,9 @@ class _Opener:
     robot: tuple[str, ...]
 
     def __call__(self) -> _TwoSides:
-        return _TwoSides(self.name, _opened(self.name, self.folder), self.robot, self.human)
+        env = _opened(self.name, self.folder)
+        checked_agents(env, self.name)  # Some only say after a reset who their agents are.
+        return _TwoSides(self.name, env, self.robot, self.human)
 
 
 class _TwoSides:

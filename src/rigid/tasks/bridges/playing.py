@@ -90,11 +90,18 @@ def period_of(env: Any) -> float:
 
 
 def success_in(infos: Iterator[Mapping[str, Any]]) -> float:
-    """1 or 0 as the first info says that knows (`is_success`, `success`); NaN where none does."""
+    """1 or 0 as the first info says that knows (`is_success`, `success`); NaN where none does.
+
+    Raises:
+        ValueError: It is neither 0, 1 nor NaN: nobody could say what it is a share of.
+    """
     for info in infos:
         for name in ("is_success", "success"):
             if name in info:
-                return float(bool(info[name]))
+                found = float(info[name])
+                if found not in {0.0, 1.0} and not np.isnan(found):
+                    raise ValueError(f"info has {name} {info[name]!r}, but must have 0 or 1")
+                return found
     return float("nan")
 
 

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Int, Shaped
 
+from rigid.cores import cores
 from rigid.errors import UserError
-from rigid.tasks.bridges.desk import Desk, Rows, serve
+from rigid.tasks.bridges.desk import Desk, Rows, Sizes, serve
 from rigid.tasks.bridges.playing import Opener
 
 FEWEST = 8
@@ -26,26 +27,28 @@ step of a small environment as long."""
 class Pool:
     """The environments of one task; they stay open until the task is gone."""
 
-    def __init__(self, opener: Opener, name: str) -> None:
-        self._opener, self._name = opener, name
+    def __init__(self, opener: Opener, name: str, sizes: Sizes) -> None:
+        self._opener, self._name, self._sizes = opener, name, sizes
         self._here: _Here | None = None
         self._workers: list[_Worker] = []
         self._numbers = count()
 
     def lease(self, batch: int, threads: int) -> Lease:
-        """So many worlds.
+        """So many worlds; processes that are of no use any more are replaced.
 
         Args:
             batch: How many.
             threads: Processes that step them; 0: one for every core.
         """
-        processes = min(threads or _cores(), max(batch // FEWEST, 1))
+        processes = min(threads or len(cores()), max(batch // FEWEST, 1))
         if processes == 1:
-            self._here = self._here or _Here(Desk(self._opener, self._name))
+            if self._here is None or self._here.broken:
+                self._here = _Here(Desk(self._opener, self._name, self._sizes))
             hands: list[_Here | _Worker] = [self._here]
         else:
+            self._workers = [worker for worker in self._workers if not worker.broken]
             while len(self._workers) < processes:
-                self._workers.append(_Worker(self._opener, self._name))
+                self._workers.append(_Worker(self._opener, self._name, self._sizes))
             hands = list(self._workers[:processes])
         return Lease(next(self._numbers), batch, hands)
 
@@ -67,9 +70,10 @@ class Lease:
             UserError: An environment fails, or its process was killed.
         """
         parts = np.split(seeds, self._bounds)
-        for hand, part in zip(self._hands, parts, strict=True):
-            hand.ask("reset", self._number, part)
-        return _joined(_answers(self._hands))
+        return _joined(_told([
+            (hand, ("reset", self._number, part))
+            for hand, part in zip(self._hands, parts, strict=True)
+        ]))  # fmt: skip
 
     def step(
         self,
@@ -83,12 +87,11 @@ class Lease:
             UserError: An environment fails, or its process was killed.
         """
         columns = [np.split(column, self._bounds) for column in (running, robot, human)]
-        asked = []
-        for hand, *parts in zip(self._hands, *columns, strict=True):
-            if parts[0].any():
-                hand.ask("step", self._number, *parts)
-                asked.append(hand)
-        answers = _answers(asked)
+        answers = _told([
+            (hand, ("step", self._number, *parts))
+            for hand, *parts in zip(self._hands, *columns, strict=True)
+            if parts[0].any()
+        ])  # fmt: skip
         rest = iter(answers)
         return _joined([
             next(rest) if part.any() else _nothing_said(answers[0], len(part))
@@ -103,6 +106,7 @@ class _Here:
         self._desk = desk
         self._answer: Any = None
         self.done_with: list[int] = []
+        self.broken = False
 
     def ask(self, method: str, *arguments: Any) -> None:
         while self.done_with:
@@ -113,11 +117,15 @@ class _Here:
         found: Rows = self._answer
         return found
 
+    def drop(self) -> None:
+        """Lends nothing any more: an environment may have been left in the middle of a step."""
+        self.broken = True
+
 
 class _Worker:
     """A desk in a process of its own, which ends when nobody listens to it any more."""
 
-    def __init__(self, opener: Opener, name: str) -> None:
+    def __init__(self, opener: Opener, name: str, sizes: Sizes) -> None:
         from loky.backend import get_context  # Its processes do not run the caller's script again.
 
         self._name = name
@@ -125,10 +133,20 @@ class _Worker:
         ours, theirs = context.Pipe()
         self._connection: Connection = ours
         self.done_with: list[int] = []
-        self._process = context.Process(target=serve, args=(theirs, opener, name), daemon=True)
+        arguments = (theirs, opener, name, sizes)
+        self._process = context.Process(target=serve, args=arguments, daemon=True)
         self._process.start()
         theirs.close()
         weakref.finalize(self, ours.close)
+
+    @property
+    def broken(self) -> bool:
+        """Whether nobody listens there any more."""
+        return self._connection.closed or not self._process.is_alive()
+
+    def drop(self) -> None:
+        """Listens no more: what it still answers would be taken for that to the next question."""
+        self._connection.close()
 
     def ask(self, method: str, *arguments: Any) -> None:
         try:
@@ -155,15 +173,28 @@ class _Worker:
         )
 
 
-def _answers(hands: list[_Here | _Worker]) -> list[Rows]:
-    """What all of them say; an error is raised when none has an answer left to give."""
+def _told(questions: list[tuple[_Here | _Worker, tuple[Any, ...]]]) -> list[Rows]:
+    """What all of them say, asked before any is heard.
+
+    Raises:
+        UserError: An environment fails, or its process was killed. No answer is left to be heard.
+    """
     found: list[Rows] = []
     failed: list[UserError] = []
-    for hand in hands:
-        try:
-            found.append(hand.answer())
-        except UserError as error:
-            failed.append(error)
+    asked: list[_Here | _Worker] = []
+    try:
+        for hand, question in questions:
+            asked.append(hand)
+            hand.ask(*question)
+        for hand in asked:
+            try:
+                found.append(hand.answer())
+            except UserError as error:
+                failed.append(error)
+    except BaseException:  # Interrupted, or one was killed: the others' answers must not stay.
+        for hand in asked:
+            hand.drop()
+        raise
     if failed:
         raise failed[0]
     return found
@@ -180,9 +211,3 @@ def _nothing_said(like: Rows, batch: int) -> Rows:
 
 def _zeros(like: Shaped[np.ndarray, "B ..."], batch: int) -> Shaped[np.ndarray, "b ..."]:
     return np.zeros((batch, *like.shape[1:]), like.dtype)
-
-
-def _cores() -> int:
-    from rigid.compute.processes import cores
-
-    return len(cores())

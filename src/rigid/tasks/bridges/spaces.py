@@ -11,6 +11,8 @@ from gymnasium.spaces.utils import flatdim, flatten
 from jaxtyping import Float, Float32
 
 from rigid.errors import UserError
+from rigid.policies.discrete import taken
+from rigid.tasks.protocol import AgentSpec
 
 _SEEN = (spaces.Box, spaces.Discrete, spaces.MultiDiscrete, spaces.MultiBinary)
 
@@ -33,8 +35,15 @@ class Sight:
         return len(self.names)
 
     def row(self, observation: Any) -> Float32[np.ndarray, " n"]:
-        """An observation as numbers, as it is: nothing is scaled or clipped."""
-        return np.asarray(flatten(self.space, observation), dtype=np.float32).reshape(-1)
+        """An observation as numbers, as it is: nothing is scaled or clipped.
+
+        Raises:
+            ValueError: It has another size than its space.
+        """
+        row = np.asarray(flatten(self.space, observation), dtype=np.float32).reshape(-1)
+        if len(row) != self.size:
+            raise ValueError(f"an observation has {len(row)} numbers, but its space {self.size}")
+        return row
 
 
 def sight_of(space: Any, owner: str) -> Sight:
@@ -96,13 +105,7 @@ class Deed:
 
     def shown(self, row: Float[np.ndarray, " a"]) -> Float32[np.ndarray, " a"]:
         """The action as an onlooker sees it: what was chosen (1, else -1), never the scores."""
-        if not self.choices:
-            return np.asarray(np.clip(row, -1.0, 1.0), np.float32)
-        blocks = [
-            np.where(np.arange(count) == choice, 1.0, -1.0)
-            for count, choice in zip(self.choices, self._chosen(row), strict=True)
-        ]
-        return np.concatenate(blocks, dtype=np.float32)
+        return taken(row, AgentSpec(0, self.size, choices=self.choices)).astype(np.float32)
 
     def _chosen(self, row: np.ndarray) -> np.ndarray:
         parts = np.split(row, np.cumsum(self.choices)[:-1])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from rigid.tasks.bridges.desk import Rows
+from rigid.tasks.bridges.desk import Rows, Sizes
 from rigid.tasks.bridges.padding import Moment, Padding
 from rigid.tasks.bridges.playing import Opener, Rules
 from rigid.tasks.bridges.pool import Lease, Pool
@@ -26,9 +26,11 @@ class BridgeTask:
 
     outcome_names: tuple[str, ...] = OUTCOMES
     return_range: tuple[float, float] | None = None
+    holds_after_end = True
+    """See `rigid.naturalness.features.choose_features`."""
 
     def __init__(
-        self, name: str, parameters: Mapping[str, Any], opener: Opener, rules: Rules
+        self, name: str, parameters: Mapping[str, Any], opener: Opener, rules: Rules, version: str
     ) -> None:
         """Builds the task.
 
@@ -37,13 +39,14 @@ class BridgeTask:
             parameters: What `make_task` takes besides, resolved; JSON.
             opener: Opens one more environment, in any process.
             rules: Of such an environment.
+            version: Tells whether it is still the same one, as `source_fingerprint` does.
         """
         self.name, self.horizon = name, rules.horizon
         self.robot: AgentSpec = rules.robot
         self.human: AgentSpec = rules.human
         self.feature_names = rules.feature_names
         self.control_period = rules.control_period
-        self._parameters, self._opener = dict(parameters), opener
+        self._parameters, self._opener, self._version = dict(parameters), opener, version
         self._pool: Pool | None = None
 
     def __getstate__(self) -> dict[str, Any]:
@@ -52,7 +55,9 @@ class BridgeTask:
 
     def make_world(self, batch: int, *, threads: int = 0) -> BridgeWorld:
         """Returns `batch` worlds stepped by `threads` processes (0: one for each core)."""
-        self._pool = self._pool or Pool(self._opener, self.name)
+        sees = (self.robot.observation_size, self.human.observation_size)
+        sizes = Sizes(*sees, len(self.feature_names))
+        self._pool = self._pool or Pool(self._opener, self.name, sizes)
         return BridgeWorld(self.horizon, self._pool.lease(batch, threads))
 
     def features(self, step: Step) -> Float[np.ndarray, "B features"]:
@@ -68,8 +73,8 @@ class BridgeTask:
         return {}
 
     def describe(self) -> Mapping[str, Any]:
-        """Name and parameters, as JSON."""
-        return {"name": self.name, "version": 0, "parameters": self._parameters}
+        """Name, fingerprint and parameters, as JSON: a factory that was edited is another task."""
+        return {"name": self.name, "version": self._version, "parameters": self._parameters}
 
 
 class BridgeWorld:

@@ -8,7 +8,15 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from rigid.tasks.protocol import AgentSpec, Step, Summary, Task, World
+from rigid.tasks.protocol import (
+    AgentSpec,
+    Step,
+    Summary,
+    Task,
+    World,
+    control_period,
+    feature_units,
+)
 
 
 class SeeingEverything:
@@ -19,6 +27,8 @@ class SeeingEverything:
         self.name, self.horizon, self.human = task.name, task.horizon, task.human
         self.feature_names, self.outcome_names = task.feature_names, task.outcome_names
         self.return_range = task.return_range
+        self.control_period = control_period(task)
+        self.feature_units = feature_units(task)
         self.robot = AgentSpec(
             task.robot.observation_size + task.human.observation_size,
             task.robot.action_size,

@@ -12,7 +12,10 @@ from jaxtyping import Float
 from rigid.errors import UserError
 from rigid.tasks.protocol import Step, Task, World
 
-_OPTIONAL = ("builtin_policies", "shown_human", "diversified", "human_poses")
+_OPTIONAL = (
+    "builtin_policies", "shown_human", "diversified", "human_poses", "control_period",
+    "feature_units", "bounds",
+)  # fmt: skip
 """Members of the protocols that a task may keep besides `Task`. `isinstance` looks for them among
 an object's own attributes, so that passing them on when they are asked for would not do."""
 
