@@ -205,6 +205,7 @@ def test_a_bug_keeps_its_traceback(exit_of):
 
 
 def test_main_exits_with_the_code_of_the_command(monkeypatch, tmp_path, capsys):
+    monkeypatch.setenv("PYTHONSAFEPATH", "")  # It is set for what is started; not for other tests.
     monkeypatch.setattr(sys, "argv", ["rigid", "report", str(tmp_path)])
     with pytest.raises(SystemExit) as end:
         cli.main()

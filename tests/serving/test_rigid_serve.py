@@ -11,6 +11,7 @@ import pytest
 
 from rigid.serving import rigid_serve
 from rigid.serving.child import Command
+from rigid.serving.environment import for_programs
 from rigid.serving.rigid_serve import MAGIC, MAX_BODY, PREFIX, FrameError, pack, read_frame
 from rigid.serving.session import Promise, Session
 from tests.serving.programs import DOUBLER, SERVE_FILE, write_program
@@ -112,7 +113,9 @@ class TestFile:
 
     def test_it_ends_by_itself_when_rigid_is_gone(self, tmp_path):
         command = Command(write_program(tmp_path, DOUBLER), tmp_path)
-        found = subprocess.run(command.words, input=b"", capture_output=True, check=False)
+        found = subprocess.run(
+            command.words, input=b"", capture_output=True, check=False, env=for_programs()
+        )
         assert (found.returncode, found.stdout) == (
             0, b"this goes to whoever looks at standard error\n",
         )  # fmt: skip
