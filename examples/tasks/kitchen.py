@@ -9,7 +9,7 @@ from pettingzoo import ParallelEnv
 
 def cramped_room() -> ParallelEnv:
     """One pot, room for one to pass; 1,000 steps of onion soup."""
-    import cogrid.envs  # noqa: F401 - It registers its kitchens.
+    import cogrid.envs  # noqa: F401 - Importing it is what registers its kitchens.
     from cogrid.envs.registry import make
 
     return make("Overcooked-CrampedRoom-V0")

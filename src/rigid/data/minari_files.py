@@ -134,7 +134,7 @@ def installed_minari() -> ModuleType:
         UserError: It is not installed.
     """
     try:
-        import h5py  # noqa: F401  # Minari misses it only in the middle of its work.
+        import h5py  # noqa: F401 - Asked for now: Minari misses it only in the middle of its work.
         import minari
     except ImportError:
         raise UserError('Minari is not installed: `pip install "rigid-frontier[minari]"`') from None

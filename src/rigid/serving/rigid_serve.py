@@ -14,6 +14,9 @@ and then, wherever RIGID is installed: rigid evaluate --robot "exec:python3 my_p
 
 What your code prints goes to standard error: standard output belongs to RIGID from the moment that
 one of the two functions is called.
+
+Frames, policies, tasks and fingerprints stand in one file, longer than others of RIGID, because it
+is copied by hand: two files would come apart.
 """
 
 from __future__ import annotations
