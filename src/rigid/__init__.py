@@ -24,12 +24,14 @@ if TYPE_CHECKING:
     from rigid.policies.protocol import Policy
     from rigid.tasks.protocol import Task
     from rigid.tasks.registry import make_task
+    from rigid.tasks.views.gymnasium import SinglePlayerEnv
 
 __all__ = [
     "CanonicalEpisodes",
     "Frontier",
     "Opening",
     "Policy",
+    "SinglePlayerEnv",
     "Task",
     "UserError",
     "__version__",
@@ -48,6 +50,7 @@ _HOMES = {
     "Frontier": "rigid.frontier.result",
     "Opening": "rigid.policies.opening",
     "Policy": "rigid.policies.protocol",
+    "SinglePlayerEnv": "rigid.tasks.views.gymnasium",
     "Task": "rigid.tasks.protocol",
     "area_under_frontier": "rigid.frontier.curve",
     "largest_jump": "rigid.frontier.largest_jump",

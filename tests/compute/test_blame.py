@@ -99,8 +99,27 @@ def test_a_damaged_file_is_named(run):
 
 
 def test_a_task_that_is_not_rigids_own_is_refused(single_run):
-    with pytest.raises(UserError, match="was measured on a task that is not RIGID's own"):
+    with pytest.raises(
+        UserError, match="not RIGID's own, and what a file names is not opened: name it"
+    ):
         blame(single_run.directory, settings=QUICK)
+
+
+class LaterReach(FilmedReach):
+    """The next version of the task."""
+
+    def describe(self):
+        return {**super().describe(), "version": 1}
+
+
+def test_a_task_that_the_user_names_is_taken_if_it_is_the_one_that_was_measured(
+    single_run, tmp_path
+):
+    run = shutil.copytree(single_run.directory, tmp_path / "run")
+    told = blame(run, task=FilmedReach(), points=["s0-r1-l1"], settings=QUICK)
+    assert told.keys() == {"s0-r1-l1"}
+    with pytest.raises(UserError, match="with other parameters or another version than the task"):
+        blame(run, task=LaterReach(), settings=QUICK)
 
 
 def test_the_command_prints_one_line_for_each_human(run, capsys, monkeypatch):

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 import time
 
 import pytest
 
-from rigid.compute.clock import Clock
+from rigid.compute.clock import Clock, core_seconds
+from rigid.cores import count_helper
 from rigid.errors import UserError
 
 
@@ -66,3 +69,23 @@ def test_a_damaged_note_is_named_with_its_cure(tmp_path, text):
     (tmp_path / "spent.json").write_text(text)
     with pytest.raises(UserError, match=r"spent\.json is damaged: delete it; only the times"):
         Clock().go_on(tmp_path / "spent.json")
+
+
+BUSY = """
+import sys, time
+while time.process_time() < 0.5: pass
+print(1, flush=True)
+sys.stdin.read()
+"""
+
+
+def test_what_a_living_helper_has_done_counts_and_counts_once_when_it_has_ended():
+    before = core_seconds()
+    with subprocess.Popen(
+        [sys.executable, "-c", BUSY], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as helper:
+        count_helper(helper.pid)
+        helper.stdout.readline()
+        alive = core_seconds() - before
+        assert alive > 0.45
+    assert alive - 0.05 < core_seconds() - before < alive + 0.4

@@ -9,6 +9,7 @@ from rigid.learning import best_response, cooptimisation
 from rigid.learning.personalisation import rollout_of
 from rigid.learning.rollout import play, policy_actor
 from rigid.policies.gaussian import GaussianPolicy
+from rigid.tasks.protocol import AgentSpec
 from tests.learning.reach import OpenReach, goer
 from tests.toys import Follower, Pointer
 
@@ -32,7 +33,7 @@ def rollout_of_a_team(episodes):
 
 def rollout_of_a_personalised_robot(episodes):
     seen, expert = episodes.robot_observation[..., :2], GaussianPolicy(goer(0))
-    return rollout_of(episodes, seen, [expert], [slice(0, 6)], 1.0)
+    return rollout_of(episodes, seen, [expert], [slice(0, 6)], AgentSpec(2, 1), 1.0)
 
 
 def rollout_of_a_response(episodes):

@@ -20,6 +20,7 @@ from rigid.learning.personalisation import (
 from rigid.learning.ppo import PPOSettings
 from rigid.learning.rollout import play, policy_actor
 from rigid.policies.gaussian import GaussianPolicy
+from rigid.tasks.protocol import AgentSpec
 from tests.learning.reach import OpenReach, bitwise_equal, goer
 from tests.toys import Pointer, ToyReach
 
@@ -104,7 +105,7 @@ def test_the_rollout_hides_the_goal_from_the_student_alone():
     episodes = personalisation._play(
         PRIVILEGED, world, learner, PARTNERS, settings=SETTINGS, rng=rng
     )
-    rollout = personalisation._rollout(episodes, learner, PARTNERS, 2, SETTINGS)
+    rollout = personalisation._rollout(episodes, learner, PARTNERS, TASK.robot, SETTINGS)
     seen, goal = episodes.robot_observation, episodes.features[..., 1]
     np.testing.assert_array_equal(rollout.observation, seen[..., :2])
     np.testing.assert_array_equal(rollout.critic_observation[..., 2], goal)
@@ -171,10 +172,20 @@ def test_without_an_expert_cloning_asks_for_what_the_student_does():
     episodes = personalisation._play(
         PRIVILEGED, world, learner, partners, settings=SETTINGS, rng=rng
     )
-    rollout = personalisation._rollout(episodes, learner, partners, 2, SETTINGS)
+    rollout = personalisation._rollout(episodes, learner, partners, TASK.robot, SETTINGS)
     seen = episodes.robot_observation[:, 24:, :2].reshape(-1, 2)
     own, _ = GaussianPolicy(learner.policy).act(seen, (), None)
     np.testing.assert_allclose(rollout.expert_action[:, 24:].reshape(-1, 1), own, atol=1e-6)
+
+
+def test_scores_of_choices_are_cloned_as_they_are_and_reals_as_the_task_takes_them():
+    seen = np.linspace(-50, 50, 3 * EXPERT.observation_size, dtype=np.float32)
+    seen = seen.reshape(1, 3, EXPERT.observation_size)
+    choosing = AgentSpec(EXPERT.observation_size, 1, choices=(1,))
+    scores = personalisation._advice(EXPERT, seen, choosing)
+    assert abs(scores).max() > 1
+    reals = personalisation._advice(EXPERT, seen, TASK.robot)
+    np.testing.assert_array_equal(reals, np.clip(scores, -1, 1))
 
 
 def test_reward_alone_teaches_a_robot_whose_human_nobody_knows():

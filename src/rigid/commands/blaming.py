@@ -10,13 +10,13 @@ from typing import Annotated, Any
 
 import tyro
 
-from rigid.commands.naming import OpeningOptions
+from rigid.commands.naming import MeasuredTaskOptions, OpeningOptions
 
 _shown_as = tyro.conf.arg
 
 
 @dataclass(frozen=True, kw_only=True)
-class BlameCommand(OpeningOptions):
+class BlameCommand(OpeningOptions, MeasuredTaskOptions):
     """Train fresh robots against each harmful human on the frontier: was it this robot's fault?
 
     About two minutes for each human on two cores; what is done is kept in DIR/blame.json.
@@ -45,7 +45,8 @@ class BlameCommand(OpeningOptions):
         names = None if self.points is None else [part.strip() for part in self.points.split(",")]
         try:
             found = blame(
-                self.directory, robot=self.robot, opening=self.opening(), points=names,
+                self.directory, task=self.named_task(), robot=self.robot, opening=self.opening(),
+                points=names,
                 say=lambda text: console.print(text, highlight=False, markup=False),
             )  # fmt: skip
         except KeyboardInterrupt:

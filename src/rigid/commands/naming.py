@@ -16,11 +16,11 @@ _agent = tyro.conf.arg(metavar="AGENT")
 
 
 @dataclass(frozen=True, kw_only=True)
-class TaskOptions:
-    """Which two-player task."""
+class MeasuredTaskOptions:
+    """The task of a run directory, where it is not RIGID's own."""
 
-    task: str = "itch-scratching"
-    """Registered task, pettingzoo:MODULE:FACTORY, gymnasium:MODULE:FACTORY or exec:COMMAND."""
+    task: Annotated[str | None, tyro.conf.arg(metavar="TASK")] = None
+    """What was named when the run was measured; RIGID's own tasks need not be named."""
     human_agent: Annotated[str | None, _agent] = None
     """Agents of a PettingZoo environment that are the human, separated by commas."""
     robot_agent: Annotated[str | None, _agent] = None
@@ -28,17 +28,37 @@ class TaskOptions:
     horizon: Annotated[int | None, tyro.conf.arg(metavar="STEPS")] = None
     """Steps of an episode of pettingzoo: and gymnasium: tasks; by default the environment's own."""
 
-    def open_task(self) -> Task:
-        """The task.
+    def named_task(self) -> Task | None:
+        """The task, if the user named one.
 
         Raises:
             UserError: There is none of this name, or it takes no such agents.
         """
         from rigid.tasks.registry import make_task
 
+        if self.task is None:
+            return None
         named = ("human_agent", "robot_agent", "horizon")
         given = {name: getattr(self, name) for name in named}
         return make_task(self.task, **{k: v for k, v in given.items() if v is not None})
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskOptions(MeasuredTaskOptions):
+    """Which two-player task."""
+
+    task: str = "itch-scratching"
+    """Registered task, pettingzoo:MODULE:FACTORY, gymnasium:MODULE:FACTORY or exec:COMMAND."""
+
+    def open_task(self) -> Task:
+        """The task.
+
+        Raises:
+            UserError: There is none of this name, or it takes no such agents.
+        """
+        task = self.named_task()
+        assert task is not None  # It always has a name.
+        return task
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from rigid.commands.naming import MeasuredTaskOptions
 from rigid.commands.parsing import at_least
 from rigid.commands.training_progress import show_progress
 from rigid.errors import UserError
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RobustCommand:
+class RobustCommand(MeasuredTaskOptions):
     """Train a measured robot on with the natural adversaries that were found (Robust GT).
 
     The most harmful adversaries of a finished run take 15 % of the episodes. With `--rounds 2` the
@@ -70,15 +72,20 @@ class RobustCommand:
         length = settings.training.iterations
         runs = train_in_rounds(
             self.run_, settings, preset, rounds=self.rounds, seed=self.seed, out=self.out,
-            canonical_episodes=self.episodes, robot=self.robot,
+            canonical_episodes=self.episodes, task=self.named_task(), robot=self.robot,
             training=lambda name: show_progress(f"{name}: retraining", length),
             searching=_searching,
         )  # fmt: skip
         fresh = seeds_not_used(runs, len(preset.seeds))
         human = frontier.data["human"]
+        named = "".join(
+            f"--{name.replace('_', '-')} {shlex.quote(str(value))} "
+            for name in ("task", "human_agent", "robot_agent", "horizon")
+            if (value := getattr(self, name)) is not None
+        )
         print(
             f"robot: {self.out}\njudge it by a search that no training saw:\n"
-            f"rigid frontier --robot {self.out} --human {human} --preset {preset.name} "
+            f"rigid frontier {named}--robot {self.out} --human {human} --preset {preset.name} "
             f"--seeds {fresh[0]}..{fresh[-1]} --out {self.out}-frontier"
         )
         return 0

@@ -14,7 +14,7 @@ from typing import Any
 from rigid.compute.evaluation import evaluate
 from rigid.compute.return_range import stored_range
 from rigid.compute.run_directory import RunDirectory, read_settings
-from rigid.compute.subject import measured_robot
+from rigid.compute.subject import measured_robot, measured_task
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically
 from rigid.frontier.result import Frontier, load_frontier
@@ -23,7 +23,6 @@ from rigid.policies.loading import load_policy
 from rigid.policies.opening import NAMED_BY_FILE, SAFE, Opening
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
-from rigid.tasks.registry import task_from_description
 from rigid.tasks.views.everything import SeeingEverything
 from rigid.tasks.views.ranged import with_range
 
@@ -42,6 +41,7 @@ Say = Callable[[str], None]
 def blame(
     directory: Path,
     *,
+    task: Task | None = None,
     robot: str | None = None,
     opening: Opening = SAFE,
     points: Sequence[str] | None = None,
@@ -51,7 +51,8 @@ def blame(
     """Blames the points of a finished run; what is already in its `blame.json` is kept.
 
     Args:
-        directory: A finished run directory of one of RIGID's own tasks.
+        directory: A finished run directory.
+        task: The run's; by default RIGID's own of that description.
         robot: Where the measured robot is now; by default where it was.
         opening: How `robot` is opened; what only the run names never runs code.
         points: Ids; by default every harmful point on the frontier.
@@ -67,9 +68,7 @@ def blame(
     settings = settings or ResponseSettings()
     frontier = load_frontier(directory)
     identity = read_settings(RunDirectory(directory))["identity"]
-    task = task_from_description(identity["task"])
-    if task is None:
-        raise UserError(f"{directory} was measured on a task that is not RIGID's own")
+    task = measured_task(directory, identity, task)
     measured = measured_robot(
         robot or str(frontier.data["robot"]), task, identity,
         opening=opening if robot else NAMED_BY_FILE,

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from rigid.cores import helper_seconds
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically
 
@@ -93,6 +94,6 @@ class Clock:
 
 
 def core_seconds() -> float:
-    """Processor time of this process and its ended children so far [s]."""
+    """Processor time so far of this process, its ended children and its living helpers [s]."""
     usages = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    return sum(usage.ru_utime + usage.ru_stime for usage in usages)
+    return helper_seconds() + sum(usage.ru_utime + usage.ru_stime for usage in usages)

@@ -10,12 +10,14 @@ from typing import Any
 
 from rigid.compute.return_range import ReturnRange
 from rigid.errors import UserError
+from rigid.files import json_text
 from rigid.naturalness.features import DEFAULT
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import BUNDLED, load_policy, policy_hash
 from rigid.policies.opening import NAMED_BY_FILE, SAFE, Opening
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
+from rigid.tasks.registry import task_from_description
 
 CANONICAL_FILE = "canonical.npz"
 _FIRST_RULER_SEED = 2**31
@@ -122,3 +124,29 @@ def canonical_path(subject: Subject) -> Path | None:
     file = Path(str(folder)) / CANONICAL_FILE
     there = os.path.exists(file)  # noqa: PTH110 - Path's raises where a command is too long.
     return file if there else None
+
+
+def measured_task(directory: Path, identity: Mapping[str, Any], named: Task | None = None) -> Task:
+    """The task that a run was measured on; nothing that the run's files name is ever imported.
+
+    Args:
+        directory: For messages.
+        identity: Of the run's settings.
+        named: The task that the user named, if any.
+
+    Raises:
+        UserError: The user has to name it, or named another one.
+    """
+    task = task_from_description(identity["task"]) if named is None else named
+    if task is None:
+        raise UserError(
+            f"{directory} was measured on a task that is not RIGID's own, and what a file names is "
+            "not opened: name it with --task (and --human-agent, --horizon), as it was measured"
+        )
+    if json_text(task.describe()) != json_text(identity["task"]):
+        measured = identity["task"].get("name")
+        raise UserError(
+            f"{directory} was measured on {measured!r} with other parameters or another version "
+            f"than the task {task.name!r} that was named: name it as it was measured"
+        )
+    return task

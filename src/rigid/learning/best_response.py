@@ -18,9 +18,10 @@ from rigid.learning.cooptimisation import Progress
 from rigid.learning.learner import Learner, Rollout, with_noise
 from rigid.learning.ppo import PPOSettings, init_learner, ppo_update
 from rigid.learning.rollout import Trajectories, play, policy_actor
+from rigid.policies.discrete import taken
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.protocol import Policy
-from rigid.tasks.protocol import Task
+from rigid.tasks.protocol import AgentSpec, Task
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +77,7 @@ def best_response(
     for iteration in range(settings.iterations):
         learner = with_noise(learner, _noise(settings, iteration))
         rng = np.random.default_rng([seed, iteration])
-        lesson = _Lesson(robot, learner, settings.episodes, rng)
+        lesson = _Lesson(robot, task.robot, learner, settings.episodes, rng)
         starts = rng.integers(2**31, size=settings.episodes)
         person = policy_actor(human, settings.episodes, rng)
         episodes = play(task, world, starts, lesson.act, person)
@@ -92,9 +93,14 @@ class _Lesson:
     """One set of episodes: the learner acts, and the robot that failed says what it would do."""
 
     def __init__(
-        self, robot: Policy, learner: Learner, batch: int, rng: np.random.Generator
+        self,
+        robot: Policy,
+        spec: AgentSpec,
+        learner: Learner,
+        batch: int,
+        rng: np.random.Generator,
     ) -> None:
-        self._robot, self._rng = robot, rng
+        self._robot, self._spec, self._rng = robot, spec, rng
         self._student = GaussianPolicy(learner.policy)
         self._state = robot.initial_state(batch)
         self._visible = robot.observation_size
@@ -103,7 +109,7 @@ class _Lesson:
 
     def act(self, seen: np.ndarray) -> np.ndarray:
         advice, self._state = self._robot.act(seen[:, : self._visible], self._state, None)
-        self.taught.append(np.clip(advice, -1.0, 1.0))
+        self.taught.append(taken(advice, self._spec))
         action, _ = self._student.sample(seen, (), self._rng)
         return action
 

@@ -136,7 +136,7 @@ def personalise_palm(
         student = policy_of(learner, settings)
         episodes = play_with(companions[0].task, world, student, partners, rng)
         key = jax.random.fold_in(jax.random.key(seed), iteration)
-        learner = _learned(learner, episodes, partners, shown_columns(task), settings, key)
+        learner = _learned(learner, episodes, partners, task, settings, key)
         success = float(np.mean(episodes.summary.success))
         report(Progress(iteration, float(episodes.returns.mean()), success, noise), learner)
     return learner
@@ -182,7 +182,7 @@ def _learned(
     learner: PalmLearner,
     episodes: Trajectories,
     partners: Sequence[Partner],
-    columns: Sequence[int],
+    task: Task,
     settings: PalmSettings,
     key: jax.Array,
 ) -> PalmLearner:
@@ -196,10 +196,12 @@ def _learned(
         np.asarray(_with_latent(learner.vae.encoder, windows)),
         [partner.expert for partner in partners if partner.expert is not None],
         _blocks(partners, visible.shape[1]),
+        task.robot,
         training.reward_scale,
     )
     robot_key, vae_key = jax.random.split(key)
     robot, _ = _update(learner.robot, rollout, robot_key, settings=training.ppo)
+    columns = shown_columns(task)
     examples = motion_of(
         visible, episodes.weight, columns, memory=motion.memory, ahead=motion.ahead
     )

@@ -30,7 +30,7 @@ from rigid.learning.rollout import (
 )
 from rigid.policies.gaussian import GaussianPolicy, history_windows, mean_action
 from rigid.policies.protocol import Policy
-from rigid.tasks.protocol import Task, World
+from rigid.tasks.protocol import AgentSpec, Task, World
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,7 +135,6 @@ def personalise(
     Raises:
         ValueError: A partner's share is too small for a single episode.
     """
-    visible = task.robot.observation_size
     key = jax.random.key(seed)
     learner, done = start or (start_robot(task, privileged, settings, seed), 0)
     world = privileged.make_world(settings.episodes)
@@ -143,7 +142,7 @@ def personalise(
         learner = with_noise(learner, noise_at(settings, iteration))
         rng = np.random.default_rng([seed, iteration])
         episodes = _play(privileged, world, learner, partners, settings=settings, rng=rng)
-        rollout = _rollout(episodes, learner, partners, visible, settings)
+        rollout = _rollout(episodes, learner, partners, task.robot, settings)
         step_key = jax.random.fold_in(key, iteration)
         learner, _ = _update(learner, rollout, step_key, settings=settings.ppo)
         success = float(np.mean(episodes.summary.success))
@@ -193,16 +192,16 @@ def _rollout(
     episodes: Trajectories,
     learner: Learner,
     partners: Sequence[Partner],
-    visible: int,
+    spec: AgentSpec,
     settings: PersonalisationSettings,
 ) -> Rollout:
     seen = episodes.robot_observation
     student = GaussianPolicy(learner.policy, memory=settings.memory)
     # Who has no advice says what the student does itself: cloning then moves nothing by itself.
     advisers = [partner.expert or student for partner in partners]
-    windows = history_windows(seen[..., :visible], settings.memory)
+    windows = history_windows(seen[..., : spec.observation_size], settings.memory)
     blocks = _blocks(partners, seen.shape[1])
-    return rollout_of(episodes, windows, advisers, blocks, settings.reward_scale)
+    return rollout_of(episodes, windows, advisers, blocks, spec, settings.reward_scale)
 
 
 def rollout_of(
@@ -210,6 +209,7 @@ def rollout_of(
     observation: Float[np.ndarray, "T N w"],
     advisers: Sequence[GaussianPolicy],
     blocks: Sequence[slice],
+    spec: AgentSpec,
     reward_scale: float,
 ) -> Rollout:
     """What a student learns from.
@@ -219,11 +219,13 @@ def rollout_of(
         observation: What the student's network was given at every step.
         advisers: One for each block, whose advice is cloned there.
         blocks: Of the episodes, side by side.
+        spec: Of the robot; reals are cloned as the task takes them, scores of choices as they are.
         reward_scale: Factor on the reward.
     """
     seen = episodes.robot_observation
     advice = [
-        _advice(adviser, seen[:, block]) for adviser, block in zip(advisers, blocks, strict=True)
+        _advice(adviser, seen[:, block], spec)
+        for adviser, block in zip(advisers, blocks, strict=True)
     ]
     both = np.concatenate([seen, episodes.human_observation], axis=-1)
     return Rollout(
@@ -236,10 +238,12 @@ def rollout_of(
     )
 
 
-def _advice(expert: GaussianPolicy, seen: np.ndarray) -> np.ndarray:
+def _advice(expert: GaussianPolicy, seen: np.ndarray, spec: AgentSpec) -> np.ndarray:
     """What `expert` would do at every step, shape (T, N, a)."""
     windows = history_windows(seen[..., : expert.observation_size], expert.memory)
-    advice: np.ndarray = np.clip(np.asarray(_mean(expert.parameters, windows)), -1, 1)
+    mean = np.asarray(_mean(expert.parameters, windows))
+    # Scores of choices are compared before anything is clipped, or all beyond 1 would be alike.
+    advice: np.ndarray = mean if spec.choices else np.clip(mean, -1, 1)
     return advice
 
 

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from rigid.compute.run_directory import RunDirectory, read_settings
-from rigid.compute.subject import measured_robot
+from rigid.compute.subject import measured_robot, measured_task
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier, load_frontier
 from rigid.learning.personalisation import (
@@ -42,7 +42,6 @@ from rigid.robots.storing import (
     store_robot,
 )
 from rigid.tasks.protocol import Task
-from rigid.tasks.registry import task_from_description
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,24 +115,27 @@ def choose_adversaries(
 
 
 def take_lesson(
-    runs: Sequence[Path], settings: RobustSettings, *, robot: str | None = None
+    runs: Sequence[Path],
+    settings: RobustSettings,
+    *,
+    task: Task | None = None,
+    robot: str | None = None,
 ) -> Lesson:
     """Reads what finished measurements teach; the last of them is the robot that goes on.
 
     Args:
         runs: Run directories; adversaries are chosen from all of them.
         settings: Which adversaries.
+        task: The runs'; by default RIGID's own of that description.
         robot: Where the measured robot is now; by default where it was.
 
     Raises:
-        UserError: A run is not finished or not of one of RIGID's tasks, the robot is another one
+        UserError: A run is not finished or of another task, the robot is another one
             than was measured or none that can go on learning, or there is nobody to learn from.
     """
     frontier = load_frontier(runs[-1])
     identity = read_settings(RunDirectory(runs[-1]))["identity"]
-    task = task_from_description(identity["task"])
-    if task is None:
-        raise UserError(f"{runs[-1]} was measured on a task that is not RIGID's own")
+    task = measured_task(runs[-1], identity, task)
     measured = measured_robot(
         robot or str(frontier.data["robot"]), task, identity,
         opening=SAFE if robot else NAMED_BY_FILE,

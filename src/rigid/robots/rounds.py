@@ -22,6 +22,7 @@ from rigid.policies.native import CARD_FILE
 from rigid.presets import Preset
 from rigid.robots.robust_gt import RobustSettings, take_lesson, train_robust_gt
 from rigid.robots.storing import Report, open_training, refuse_finished
+from rigid.tasks.protocol import Task
 
 Showing = Callable[[str], AbstractContextManager[Report]]
 Listening = Callable[[str], AbstractContextManager[Listener]]
@@ -46,6 +47,7 @@ def train_in_rounds(
     robot: str | None,
     training: Showing,
     searching: Listening,
+    task: Task | None = None,
 ) -> list[Path]:
     """Trains a robot into `out`; the robots and searches between lie in `out`/round-1 and so on.
 
@@ -57,6 +59,7 @@ def train_in_rounds(
         seed: Everything random comes from it.
         out: Directory of the last robot.
         canonical_episodes: Recorded with each robot.
+        task: The run's, if the user named it.
         robot: Where the robot that `run` measured is now; by default where it was.
         training: Shows the progress of a training, which it is told the name of.
         searching: Shows the progress of a search.
@@ -68,9 +71,8 @@ def train_in_rounds(
         UserError: As `take_lesson` and `train_robust_gt`.
     """
     runs, between = [run], [f"round-{number}" for number in range(1, rounds)]
-    take_lesson(
-        runs, settings, robot=robot
-    )  # Refuses what cannot be learned from, before any work.
+    # Refuses what cannot be learned from, before any work.
+    take_lesson(runs, settings, task=task, robot=robot)
     refuse_finished(out)
     open_training(out, between)
     measured = load_frontier(run).data
@@ -80,7 +82,7 @@ def train_in_rounds(
     )
     for name in between:
         made, searched = out / name / "robot", out / name / "frontier"
-        lesson = take_lesson(runs, settings, robot=robot)
+        lesson = take_lesson(runs, settings, task=task, robot=robot)
         if not (made / CARD_FILE).exists():
             with training(name) as report:
                 teach(lesson, out=made, report=report)
@@ -92,7 +94,7 @@ def train_in_rounds(
             )  # fmt: skip
         runs.append(searched)
         robot = None  # From here on it is where it was measured.
-    lesson = take_lesson(runs, settings, robot=robot)
+    lesson = take_lesson(runs, settings, task=task, robot=robot)
     with training(f"round {rounds}") as report:
         teach(lesson, out=out, report=report, beside=between)
     return runs

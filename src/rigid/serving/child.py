@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
+from rigid.cores import count_helper
 from rigid.errors import UserError
 from rigid.serving.environment import for_programs
 
@@ -82,6 +83,7 @@ class Child:
             raise UserError(
                 f"{command.label} cannot be started: {where}: {error.strerror}: {_FORM}"
             ) from None
+        count_helper(self._process.pid)
         calls, answers, errors = (
             self._process.stdin, self._process.stdout, self._process.stderr,
         )  # fmt: skip

@@ -10,6 +10,7 @@ from gymnasium.utils.env_checker import check_env
 from rigid.errors import UserError
 from rigid.policies.passive import PassivePolicy
 from rigid.tasks.views.gymnasium import ITCH_SCRATCHING, SinglePlayerEnv, register
+from tests.toys import ToyReach
 
 register()
 PLAYERS = ("robot", "human")
@@ -126,3 +127,11 @@ def test_info_tells_success_and_reward_terms():
 def test_bad_options_are_answered_with_the_cure(options, message):
     with pytest.raises(UserError, match=message):
         make(**options)
+
+
+def test_a_task_that_says_no_bounds_has_open_boxes():
+    env = SinglePlayerEnv(ToyReach(), "robot")
+    assert env.observation_space.shape == (ToyReach().robot.observation_size,)
+    assert np.isinf(env.observation_space.high).all()
+    env.reset(seed=0)
+    assert np.isfinite(env.step(env.action_space.sample())[0]).all()

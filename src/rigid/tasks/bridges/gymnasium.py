@@ -19,6 +19,7 @@ from jaxtyping import Float, Float32
 
 from rigid.errors import UserError
 from rigid.factories import call_factory, source_fingerprint, told
+from rigid.tasks.bridges.once import warn_once
 from rigid.tasks.bridges.playing import Glimpse, Rules, horizon_of, period_of, success_in
 from rigid.tasks.bridges.spaces import deed_of, sight_of
 from rigid.tasks.bridges.task import BridgeTask
@@ -85,6 +86,7 @@ class _Opener:
     folder: str
 
     def __call__(self) -> _Inhabited:
+        warn_once()
         return _Inhabited(_port(call_factory(self.name, self.folder), self.name), self.name)
 
 

@@ -22,6 +22,7 @@ from pettingzoo.utils import aec_to_parallel
 from rigid.errors import UserError
 from rigid.factories import call_factory, source_fingerprint
 from rigid.tasks.bridges.agents import checked_agents, divided
+from rigid.tasks.bridges.once import warn_once
 from rigid.tasks.bridges.playing import Glimpse, Rules, horizon_of, period_of, success_in
 from rigid.tasks.bridges.side import Side
 from rigid.tasks.bridges.task import BridgeTask
@@ -139,6 +140,7 @@ class _TwoSides:
 
 def _opened(name: str, folder: str) -> Any:
     """The environment, as one in which all agents act at the same time."""
+    warn_once()
     env = call_factory(name, folder)
     if isinstance(env, AECEnv):
         if not env.metadata.get("is_parallelizable", False):

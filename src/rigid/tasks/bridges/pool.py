@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Int, Shaped
 
-from rigid.cores import cores
+from rigid.cores import cores, count_helper
 from rigid.errors import UserError
 from rigid.tasks.bridges.desk import Desk, Rows, Sizes, serve
 from rigid.tasks.bridges.playing import Opener
@@ -136,6 +136,7 @@ class _Worker:
         arguments = (theirs, opener, name, sizes)
         self._process = context.Process(target=serve, args=arguments, daemon=True)
         self._process.start()
+        count_helper(self._process.pid)
         theirs.close()
         weakref.finalize(self, ours.close)
 

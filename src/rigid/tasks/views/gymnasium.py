@@ -11,8 +11,9 @@ from jaxtyping import Float32
 from rigid.errors import UserError
 from rigid.policies.passive import PassivePolicy
 from rigid.policies.protocol import Policy, State
+from rigid.tasks.protocol import Task
 from rigid.tasks.registry import make_task
-from rigid.tasks.views.single import AGENTS, BoundedTask, SingleWorld
+from rigid.tasks.views.single import AGENTS, SingleWorld
 
 Agent = Literal["robot", "human"]
 ITCH_SCRATCHING = "rigid/ItchScratching-v0"
@@ -41,18 +42,21 @@ def play(
         UserError: No such player, partner or parameter.
     """
     built = make_task(task, **parameters)
-    assert isinstance(built, BoundedTask)
     return SinglePlayerEnv(built, player, partner, partner_noise=partner_noise)
 
 
 class SinglePlayerEnv(gymnasium.Env[np.ndarray, np.ndarray]):
-    """The reward, the fixed length and the info are those of the two-player task."""
+    """The reward, the fixed length and the info are those of the two-player task.
+
+    Spaces are boxes: observations have the task's bounds where it says them, actions are reals in
+    [-1, 1] (of a discrete action a score for each choice, of which the largest is taken).
+    """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - as Gymnasium declares it
 
     def __init__(
         self,
-        task: BoundedTask,
+        task: Task,
         player: str = "robot",
         partner: Policy | str | None = None,
         *,
@@ -112,7 +116,7 @@ class SinglePlayerEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         return self._world.observation(self._player), reward, False, over, self._world.info()
 
 
-def _resolve(partner: Policy | str | None, task: BoundedTask, agent: Agent) -> Policy:
+def _resolve(partner: Policy | str | None, task: Task, agent: Agent) -> Policy:
     """The partner's policy; loading one by name reads files, and checking one imports JAX."""
     if partner is None:
         spec = {"robot": task.robot, "human": task.human}[agent]

@@ -8,7 +8,8 @@ import numpy as np
 from gymnasium.spaces import Box
 from pettingzoo import ParallelEnv
 
-from rigid.tasks.views.single import AGENTS, BoundedTask, SingleWorld
+from rigid.tasks.protocol import Task
+from rigid.tasks.views.single import AGENTS, SingleWorld
 
 PerAgent = dict[str, Any]
 
@@ -16,12 +17,12 @@ PerAgent = dict[str, Any]
 class TwoPlayerEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo ships no types.
     """Agents `robot` and `human`, one shared reward, episodes of fixed length.
 
-    Observations are clipped to the task's bounds. Nothing terminates an episode: it is truncated
-    after `Task.horizon` steps. Both agents get the same info (`SingleWorld.info`), which may tell
-    what an agent cannot see: it is for logging, not for policies.
+    Observations are clipped to the bounds of a task that says them. Nothing terminates an episode:
+    it is truncated after `Task.horizon` steps. Both agents get the same info (`SingleWorld.info`),
+    which may tell what an agent cannot see: it is for logging, not for policies.
     """
 
-    def __init__(self, task: BoundedTask) -> None:
+    def __init__(self, task: Task) -> None:
         name = f"{task.name}_v{task.describe()['version']}".replace("-", "_")
         self.metadata = {"name": name, "render_modes": [], "is_parallelizable": True}
         self.render_mode = None

@@ -16,7 +16,7 @@ AGENTS = ("robot", "human")
 
 @runtime_checkable
 class BoundedTask(Task, Protocol):
-    """A task that can be shown as boxes."""
+    """A task that says how large what its agents see can get; optional."""
 
     def bounds(self, agent: str) -> Float[np.ndarray, "n 2"]:
         """Finite (low, high) of each number that `agent` observes."""
@@ -26,7 +26,7 @@ class BoundedTask(Task, Protocol):
 class SingleWorld:
     """Plays one episode at a time."""
 
-    def __init__(self, task: BoundedTask) -> None:
+    def __init__(self, task: Task) -> None:
         self.task = task
         self.observation_spaces = {agent: _observation_box(task, agent) for agent in AGENTS}
         self.action_spaces = {agent: _action_box(task, agent) for agent in AGENTS}
@@ -100,9 +100,12 @@ class SingleWorld:
         return action[None]
 
 
-def _observation_box(task: BoundedTask, agent: str) -> spaces.Box:
-    low, high = task.bounds(agent).T.astype(np.float32)
-    return spaces.Box(low, high, dtype=np.float32)
+def _observation_box(task: Task, agent: str) -> spaces.Box:
+    if isinstance(task, BoundedTask):
+        low, high = task.bounds(agent).T.astype(np.float32)
+        return spaces.Box(low, high, dtype=np.float32)
+    size = {"robot": task.robot, "human": task.human}[agent].observation_size
+    return spaces.Box(-np.inf, np.inf, (size,), dtype=np.float32)
 
 
 def _action_box(task: Task, agent: str) -> spaces.Box:
