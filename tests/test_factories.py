@@ -24,6 +24,7 @@ def test_a_module_of_the_working_directory_is_found(tmp_path, monkeypatch):
         ("pettingzoo:not_there:make", "there is no module 'not_there', neither in /.* nor inst"),
         (f"{HERE}:not_there", r"environments:not_there: the module has no 'not_there'"),
         (f"{HERE}:REAL", r"environments:REAL is a Box, but must be a function"),
+        (f"{HERE}:REALL", r"has no 'REALL', did you mean 'REAL'\? write pettingzoo:MODULE"),
         (f"{HERE}:broken", r"calling the factory fails: RuntimeError: no licence found \(.*:\d+\)"),
         (f"{HERE}:with_argument", r"takes no arguments: write one that calls with_argument"),
         ("gymnasium:tests.tasks.mistaken_import:x", "there is no module 'tests.tasks.mistaken_imp"),

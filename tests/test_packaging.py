@@ -114,6 +114,21 @@ def test_the_wheel_carries_the_report_and_its_types(wheel):
     } <= names
 
 
+def test_the_wheel_carries_what_a_study_is_served_from(wheel):
+    names = set(zipfile.ZipFile(wheel).namelist())
+    protocols = ("exhaustiveness", "faithfulness", "danger", "naturalness")
+    assert {
+        "rigid/report/static/study.js",
+        "rigid/report/static/study.css",
+        "rigid/study/page.html",
+        "rigid/study/texts/en.json",
+        *(f"rigid/study/protocols/paper-{name}.yaml" for name in protocols),
+        *(f"rigid/study/service/admin.{kind}" for kind in ("html", "css", "js")),
+        "rigid/study/analysis/study.html",
+        "rigid/tasks/itch_scratching/posture.npz",
+    } <= names
+
+
 def test_the_wheel_carries_no_tests_and_no_sources_of_the_bundle(wheel):
     names = zipfile.ZipFile(wheel).namelist()
     assert {name.partition("/")[0] for name in names} == {

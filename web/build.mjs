@@ -18,19 +18,22 @@ function notices(metafile) {
   }
   const texts = [...packages].sort().map((name) => {
     const folder = join(here, "node_modules", name);
-    const file = ["LICENSE", "LICENSE.md", "LICENSE.txt"].find((f) => existsSync(join(folder, f)));
-    if (!file) throw new Error(`no licence text for the bundled package ${name}`);
+    const own = readdirSync(folder).find((f) => /^licen[cs]e(\.(md|txt))?$/i.test(f));
+    // A package that comes without its licence's text: we keep it, from its repository.
+    const file = own ? join(folder, own) : join(here, "licences", `${name}.txt`);
+    if (!existsSync(file)) throw new Error(`no licence text for the bundled package ${name}`);
     const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
-    return `${name} ${version}\n\n${readFileSync(join(folder, file), "utf8").trim()}`;
+    return `${name} ${version}\n\n${readFileSync(file, "utf8").trim()}`;
   });
   const body = texts.join("\n\n----\n\n").replaceAll("*/", "* /").replace(/[^\x00-\x7f]/g, "?");
   return `/*! Third-party software in this file\n\n${body}\n*/\n`;
 }
 
-async function bundleReport() {
+/** One page, `<name>.js` and `<name>.css`. */
+async function bundlePage(name, entry) {
   const result = await build({
     ...common,
-    entryPoints: { report: "src/report/main.ts" },
+    entryPoints: { [name]: entry },
     outdir: target,
     write: false,
     metafile: true,
@@ -56,4 +59,8 @@ async function bundleTests() {
   await build({ ...common, entryPoints, outdir, platform: "node", format: "esm", outExtension: { ".js": ".mjs" } });
 }
 
-await (process.argv.includes("--tests") ? bundleTests() : bundleReport());
+if (process.argv.includes("--tests")) await bundleTests();
+else {
+  await bundlePage("report", "src/report/main.ts");
+  await bundlePage("study", "src/study/main.ts");
+}

@@ -10,7 +10,7 @@ from jaxtyping import Float, Int
 from benchmarks.physics.people import human_named, robot
 from benchmarks.physics.plan import Plan, Setting
 from rigid.learning.rollout import Trajectories, play, policy_actor
-from rigid.tasks.itch_scratching.sensing import Contacts, Poses
+from rigid.tasks.itch_scratching.sensing import Poses
 from rigid.tasks.itch_scratching.task import ItchScratching
 from rigid.tasks.itch_scratching.world import ItchScratchingWorld
 from rigid.tasks.protocol import Step
@@ -49,16 +49,14 @@ class WatchedWorld(ItchScratchingWorld):
         """Advances every world by one control step; nothing is noted of one that ran away."""
         result = super().step(robot_action, human_action)
         sound = ~self.faulted
-        depth = self._sensors.penetration(self._records["sensordata"])
+        depth = self._scene.penetration(self._scene.records["sensordata"])
         speed = np.abs(self._batch.bind("qvel")).max(axis=1)
         self.penetration = np.maximum(self.penetration, np.where(sound, depth, 0.0))
         self.fastest = np.maximum(self.fastest, np.where(sound, speed, 0.0))
         return result
 
-    def _score(self, action: np.ndarray, contacts: Contacts, poses: Poses) -> Step:
-        if self._pose_age > 1:
-            poses = self._sensors.poses(self._records["sensordata"][:, -self._pose_age])
-        return super()._score(action, contacts, poses)
+    def _poses(self, data: Float[np.ndarray, "B S n"]) -> Poses:
+        return super()._poses(data[:, : max(1, data.shape[1] - self._pose_age + 1)])
 
 
 class Played(NamedTuple):

@@ -21,6 +21,7 @@ from rigid.policies.loading import BUNDLED
 from rigid.tasks.bodies import human
 from rigid.tasks.itch_scratching.sensing import Sensors
 from rigid.tasks.itch_scratching.task import ItchScratching
+from rigid.tasks.physics.sensing import penetration_reader
 
 _RECORDING = 1_000_000
 """Block of the recorded episodes: none of the closed loop's. Ours."""
@@ -62,6 +63,7 @@ def replay_windows(
         task: Itch scratching at that step.
     """
     model, sensors = task.model, Sensors(task.model)
+    penetration = penetration_reader(model)
     size, itch = model.nq, snapshots[:, 0, -2].astype(int)
     batch = Batch(model, len(snapshots), 1)
     batch.bind("qpos")[:] = snapshots[:, 0, :size]
@@ -75,7 +77,7 @@ def replay_windows(
         force = sensors.contacts(record, itch).force_on_person
         impulse += force.sum(axis=1) * setting.step
         peak = np.maximum(peak, force.max(axis=1))
-        depth = np.maximum(depth, sensors.penetration(record))
+        depth = np.maximum(depth, penetration(record))
     joints = [int(model.joint(name).qposadr[0]) for name in human.ARM_JOINTS]
     ends = [np.array(batch.bind(name)[:, joints]) for name in ("qpos", "qvel")]
     return Replayed(impulse, peak, depth, np.concatenate(ends, axis=1))

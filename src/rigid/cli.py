@@ -29,6 +29,7 @@ from rigid.commands.pairing import PairsCommand
 from rigid.commands.parsing import printable
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
+from rigid.commands.study import StudyCommand
 from rigid.commands.training import TrainCommand
 from rigid.commands.verifying import VerifyCommand
 from rigid.compute.threads import fix_xla_threads
@@ -51,6 +52,7 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "gate": GateCommand,
     "blame": BlameCommand,
     "pairs": PairsCommand,
+    "study": StudyCommand,
     "export": ExportCommand,
     "bench": BenchCommand,
     "train": TrainCommand,

@@ -5,6 +5,7 @@ Importing runs code; but the user wrote the name on the command line.
 
 from __future__ import annotations
 
+import difflib
 import hashlib
 import importlib
 import sys
@@ -88,7 +89,9 @@ def _find(name: str, folder: str) -> Callable[[], Any]:
     form = _form(name)
     for part in name.split(":", 2)[2].split("."):
         if not hasattr(found, part):
-            raise UserError(f"{name}: the module has no {part!r}: {form}")
+            close = difflib.get_close_matches(part, dir(found), n=1)
+            hint = f", did you mean {close[0]!r}?" if close else ":"
+            raise UserError(f"{name}: the module has no {part!r}{hint} {form}")
         found = getattr(found, part)
     if not callable(found):
         raise UserError(f"{name} is a {type(found).__name__}, but must be a function: {form}")

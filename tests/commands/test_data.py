@@ -73,7 +73,7 @@ def test_import_exits_with_2_only_when_no_episode_is_left(rigid, toys, tmp_path)
         (["--from", "nowhere.csv"], "nowhere.csv does not exist: give a CSV file, a folder"),
         (["--from", "FILE", "--rate", "50"], "--rate is 50, but"),
         (["--from", "FILE", "--rate=-1"], "--rate is -1, but must be samples a second"),
-        (["--from", "FILE", "--met", "jaco"], "holds no episode with robot 'jaco', but"),
+        (["--from", "FILE", "--met", "jaco"], "but with robots without a name: leave --met out"),
         (["--from", "FILE", "--map", "no.json"], "no.json does not exist: docs/canonical-data.md"),
     ],
 )  # fmt: skip

@@ -37,7 +37,7 @@ def test_bad_input_exits_with_2_and_writes_nothing(rigid, toys, tmp_path, option
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--from", "nowhere"], "nowhere/frontier.json does not exist: run `rigid frontier`"),
+        (["--from", "nowhere"], "there is no directory nowhere: name a run of `rigid frontier`"),
         (["--from", "r", "--rounds", "0"], "--rounds is 0, but must be at least 1"),
         (["--from", "r", "--share", "1"], "--share is 1, but must lie between 0 and 1"),
         (["--from", "r", "--naturalness", "0.8", "0.2"], "--naturalness 0.8 0.2 must be LOW HIGH"),

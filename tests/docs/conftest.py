@@ -24,6 +24,7 @@ RUNS = {
     ],
     "docs/export.md": ["vanilla"],
     "docs/policies.md": ["vanilla"],
+    "docs/study.md": ["vanilla"],
     "docs/robots.md": ["vanilla-fresh", "robust-fresh", "robust-twice-fresh"],
     "examples/ci/README.md": ["last"],
 }

@@ -20,6 +20,8 @@ ADDED = {
     "train vanilla": ("--iterations", "1", "--episodes", "5"),
     "train gleave": ("--iterations", "1", "--population-iterations", "1", "--episodes", "5"),
     "train palm": ("--iterations", "1", "--episodes", "5"),
+    "study pilot": ("--participants", "1", "--speed", "20"),
+    "study power": ("--simulations", "20"),
     "train robust-gt": ("--iterations", "1", "--episodes", "5"),
 }
 """What is added to commands that do not name it."""

@@ -34,6 +34,7 @@ NOT_RUN = {
     "docs/new-domain.md": 3,
     "docs/policies.md": 5,
     "docs/scaling.md": 2,
+    "docs/study.md": 2,
     "docs/tasks.md": 4,
     "docs/tutorial.md": 2,
 }

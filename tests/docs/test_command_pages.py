@@ -27,7 +27,8 @@ def test_a_page_names_every_option_with_its_default_and_every_example(name, comm
     shown = {option.name.split()[0].strip("[").lstrip("-"): option for option in found.options}
     for field in dataclasses.fields(kind):
         label = RENAMED.get(field.name, field.name).replace("_", "-")
-        label = POSITIONAL.get(field.name, label).split()[0].strip("[")
+        if "Positional" in field.type:
+            label = POSITIONAL[field.name].split()[0].strip("[")
         default = field.default if isinstance(field.default, tuple) else (field.default,)
         said = {(None,): "", (dataclasses.MISSING,): "required"}.get(default)
         if said is None:

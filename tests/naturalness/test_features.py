@@ -8,7 +8,7 @@ import pytest
 from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.naturalness.features import choose_features, seen_through
-from rigid.tasks.protocol import AgentSpec
+from rigid.tasks.protocol import AgentSpec, BoundedTask
 from tests.toys import Follower, Pointer, ToyReach
 
 TASK = ToyReach()
@@ -68,6 +68,17 @@ def test_a_bad_choice_is_refused(text, message):
 
 def test_the_default_leaves_the_task_alone():
     assert seen_through(TASK, choose_features("default", TASK)) is TASK
+
+
+def test_a_view_keeps_the_tasks_bounds_where_it_has_some():
+    class Bounded(ToyReach):
+        def bounds(self, agent):
+            return np.array([[-1.0, 1.0]] * {"robot": 2, "human": 3}[agent])
+
+    for task in (TASK, Bounded()):
+        view = seen_through(task, choose_features("goal", task))
+        assert isinstance(view, BoundedTask) == isinstance(task, BoundedTask)
+    np.testing.assert_array_equal(view.bounds("human"), task.bounds("human"))
 
 
 def test_a_view_keeps_the_tasks_pace_and_the_units_of_what_it_shows():

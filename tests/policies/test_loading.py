@@ -170,8 +170,18 @@ def test_a_name_too_long_for_a_file_is_no_crash(spec, message):
 
 
 def test_a_task_without_bundled_robots_says_so():
-    with pytest.raises(UserError, match="unknown for task 'toy-reach'; builtin robots: none"):
+    with pytest.raises(
+        UserError, match="builtin robots: none; train one with rigid train, or name yours"
+    ):
         load_policy("builtin:vanilla", task=TASK, agent="robot")
+
+
+@pytest.mark.parametrize("agent", ["robot", "human"])
+def test_the_directory_of_a_pair_says_which_of_the_two_to_name(agent, tmp_path):
+    policy = untrained(getattr(TASK, agent))
+    save_policy(policy, tmp_path / agent, agent=agent, task=TASK.describe(), provenance={})
+    with pytest.raises(UserError, match=f"holds no policy itself: name '.*/{agent}' in it"):
+        load_policy(str(tmp_path), task=TASK, agent=agent)
 
 
 def test_a_policy_of_other_sizes_is_refused_with_both(tmp_path):

@@ -60,9 +60,13 @@ def touching(frames, place, body, kind, force=2.0):
 
 
 def planted(
-    tip, itch=None, *, counted=(), contacts=(), force=(), outcome="unhelped", itching=FOREARM
-):
-    """A replay: the tip's path, the itch's path, frames that count a contact, and what touched."""
+    tip, itch=None, *, counted=(), spilled=None, contacts=(), force=(), outcome="unhelped",
+    itching=FOREARM,
+):  # fmt: skip
+    """A replay: the tip's path, the itch's path, frames that count a contact, and what touched.
+
+    `spilled` are frames at which food falls, in a task that has some.
+    """
     itch = still(ITCH) if itch is None else itch
     poses = np.zeros((FRAMES, 3, 7))
     poses[:, :, 3] = 1
@@ -72,8 +76,10 @@ def planted(
         total[frame:] += 1
     for frame, value in force:
         forces[frame] = value
+    food = {} if spilled is None else {"spilled": [sum(f <= frame for f in spilled)
+                                                   for frame in range(FRAMES)]}  # fmt: skip
     return {
-        "dt": DT, "frames": FRAMES, "bodies": [3, TOOL, itching], "poses": poses,
+        **food, "dt": DT, "frames": FRAMES, "bodies": [3, TOOL, itching], "poses": poses,
         "itch": {"body": itching, "pos": [0, 0, 0], "limb": "limb"},
         "distance": np.linalg.norm(tip - itch, axis=1).tolist(), "counted": total.tolist(),
         "force_unwanted": forces.tolist(), "contacts": list(contacts), "outcome": outcome,
@@ -85,6 +91,11 @@ def seen(replay):
     return read_episode(SCENE, replay)
 
 
-def canonical(step=0.016):
+def canonical_replay(step=0.016):
     """Canonical play: the tip swings at the itch, 1.6 m in all."""
-    return seen(planted(swinging(ITCH, step), counted=range(10, 60), outcome="helped"))
+    return planted(swinging(ITCH, step), counted=range(10, 60), outcome="helped")
+
+
+def canonical(step=0.016):
+    """The episode of canonical play."""
+    return seen(canonical_replay(step))

@@ -185,7 +185,7 @@ def sample_payload(seeds: int = 3, *, replays: int | None = None) -> dict:
     _tell_failures(stage, motions, moved)
     return {
         "frontier": frontier, "band": band, "scene": stage, "replays": motions,
-        "failures": group(moved, motions),
+        "failures": group(moved, motions, "itch"),
         "settings": {
             "note": "synthetic sample for the report's tests: measured nowhere",
             "preset": "standard", "seeds": list(range(seeds)),

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rigid.report.episodes import arm_of
-from rigid.report.failure_kinds import WORDS
+from rigid.report.episodes import arm_of, read_episode
+from rigid.report.failure_kinds import KINDS, words
 from rigid.report.failure_rules import RULES, classify
 from tests.report import planted_episodes as plant
 from tests.report.planted_episodes import canonical, moved, planted, seen, still, swinging, touching
 
 ITCH, START = plant.ITCH, plant.START
+PLAY = plant.canonical_replay()
 AWAY = np.array([0.0, 0.06, 0.0])
 ASIDE = ITCH + AWAY
 REACH = np.linalg.norm(START + plant.FORE - plant.SHOULDER) + np.linalg.norm(plant.FORE)
@@ -44,6 +45,7 @@ PLANTED = {
         + touching([60], START, plant.FOREARM, plant.ITCHES, 40.0),
     ),
     "out_of_reach": planted(still(), moved(still(ITCH), 50, (2.0, 0, 0))),
+    "spilled": planted(swinging(START, 0.03), spilled=[10, 30, 50, 90]),
     "thrashing": planted(swinging(START, 0.03)),
     "lost_contact": lost(),
     "wrong_limb": planted(
@@ -65,6 +67,7 @@ FOUND = {  # Moment [s], and what is said of it.
         5.0,
         f"the itch was up to 2.40 m from the robot's shoulder; its arm reaches {REACH:.2f} m",
     ),
+    "spilled": (5.0, "4 pieces of food fell, the third when the tool was 20 cm from the itch"),
     "thrashing": (
         0.1, "the tool went 3.0 m (canonical play: 1.6 m), and was up to 20 cm from the itch"
     ),
@@ -97,7 +100,7 @@ def test_a_planted_failure_gets_its_kind_its_moment_and_its_numbers(name):
 
 
 def test_every_rule_is_planted_and_has_words_and_the_last_one_always_holds():
-    assert list(PLANTED) == list(WORDS) == [name for name, _ in RULES]
+    assert tuple(PLANTED) == KINDS == tuple(name for name, _ in RULES)
     assert RULES[-1][1](canonical(), None) is not None
 
 
@@ -105,10 +108,30 @@ def test_a_helped_episode_did_not_fail():
     assert judge({**PLANTED["thrashing"], "outcome": "helped"}) is None
 
 
-@pytest.mark.parametrize("name", ["poses", "itch", "counted", "contacts", "outcome", "distance"])
+@pytest.mark.parametrize("name", ["poses", "itch", "contacts", "outcome", "distance"])
 def test_a_task_that_does_not_tell_has_no_kind(name):
     replay = {key: value for key, value in PLANTED["stuck"].items() if key != name}
     assert judge(replay) is None
+
+
+@pytest.mark.parametrize("name", ["lost_contact", "wrong_limb", "missed_spot", "too_little"])
+def test_a_task_that_counts_no_contacts_knows_nothing_of_scratching(name):
+    replay = {key: value for key, value in PLANTED[name].items() if key != "counted"}
+    assert kind(replay) in {"stuck", "unclear"}
+
+
+def test_two_pieces_of_food_may_fall():
+    assert kind(planted(swinging(START, 0.03), spilled=[10, 30])) == "thrashing"
+
+
+@pytest.mark.parametrize("name", ["out_of_reach", "spilled", "thrashing", "stuck", "strayed",
+                                  "kept_away", "unclear"])  # fmt: skip
+def test_what_is_said_of_an_episode_names_the_goal_of_the_task(name):
+    pair = [read_episode({**plant.SCENE, "goal": "mouth"}, one) for one in (PLANTED[name], PLAY)]
+    said = classify(*pair)["says"]
+    assert said == FOUND[name][1].replace("itch", "mouth")
+    assert "mouth" in said
+    assert "itch" not in f"{words(name, 'mouth')}"
 
 
 def test_what_hurts_names_the_failure_whatever_else_went_wrong():

@@ -66,8 +66,8 @@ def test_an_unknown_parameter_is_answered_with_the_valid_ones():
         make_task("itch-scratching", percentil=50)
     assert str(error.value) == (
         "itch-scratching: unknown parameter 'percentil', did you mean 'percentile'? Valid: body, "
-        "percentile, impairment, severity, itch_limbs, itch_spread, servo, weights, horizon, "
-        "physics_step, substeps"
+        "percentile, impairment, severity, servo, weights, horizon, physics_step, substeps, "
+        "itch_limbs, itch_spread"
     )
 
 

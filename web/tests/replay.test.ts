@@ -37,6 +37,11 @@ test("a damaged clip reads as none stored", () => {
   assert.equal(readScene({ geoms: "none" }), null);
 });
 
+test("a scene names what the tool is to reach, by default the itch", () => {
+  assert.equal(readScene({ geoms: [{}], goal: "mouth" })?.goal, "mouth");
+  assert.equal(readScene({ geoms: [{}] })?.goal, "itch");
+});
+
 test("a clip says what went wrong and when, else nothing", () => {
   const clip = { frames: 1, bodies: [1], poses: "AQAAAAAA/38AAAAAAAA=" };
   const failure = { kind: "stuck", part: null, frame: 7, time: 0.7, says: "it stood still" };
@@ -95,12 +100,12 @@ const geom = (over: Partial<Geom>): Geom => ({
 });
 
 test("the tip is the body of that name, else the geom", () => {
-  assert.deepEqual(tipOf({ bodies: ["world", "tool_tip"], geoms: [], rest: [] }), { body: 1, point: [0, 0, 0] });
+  assert.deepEqual(tipOf({ bodies: ["world", "tool_tip"], geoms: [], rest: [], goal: "itch" }), { body: 1, point: [0, 0, 0] });
   for (const name of ["tip", "scratcher_tip"]) {
     const tip = geom({ name, body: 3, pos: [0, 0, 2] });
-    assert.deepEqual(tipOf({ bodies: ["world"], geoms: [tip], rest: [] }), { body: 3, point: [0, 0, 2] });
+    assert.deepEqual(tipOf({ bodies: ["world"], geoms: [tip], rest: [], goal: "itch" }), { body: 3, point: [0, 0, 2] });
   }
-  assert.equal(tipOf({ bodies: ["world"], geoms: [geom({ name: "multip" })], rest: [] }), null);
+  assert.equal(tipOf({ bodies: ["world"], geoms: [geom({ name: "multip" })], rest: [], goal: "itch" }), null);
 });
 
 test("distance to a capsule counts from its side and from its round end", () => {
@@ -110,7 +115,7 @@ test("distance to a capsule counts from its side and from its round end", () => 
 });
 
 test("a contact belongs to the nearest limb, where that limb is at that moment", () => {
-  const scene = { bodies: [], geoms: [geom({ role: "robot" }), geom({ body: 0, pos: [5, 0, 0] }), geom({})], rest: [] };
+  const scene = { bodies: [], geoms: [geom({ role: "robot" }), geom({ body: 0, pos: [5, 0, 0] }), geom({})], rest: [], goal: "itch" };
   const clip = clipOf([[0, 0, 0, ...STILL], [3, 0, 0, ...STILL]]);
   const at = (frame: number, x: number): number =>
     touchedGeom(scene, clip, { frame, at: [x, 0, 0], force: 1, kind: "unwanted" });
@@ -120,7 +125,7 @@ test("a contact belongs to the nearest limb, where that limb is at that moment",
 });
 
 test("a scene without people has no touched limb", () => {
-  const scene = { bodies: [], geoms: [geom({ role: "robot" })], rest: [] };
+  const scene = { bodies: [], geoms: [geom({ role: "robot" })], rest: [], goal: "itch" };
   const contact = { frame: 0, at: [0, 0, 0], force: 1, kind: "unwanted" } as const;
   assert.equal(touchedGeom(scene, clipOf([[0, 0, 0, ...STILL]]), contact), -1);
 });

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from rigid.errors import UserError
+
 if TYPE_CHECKING:
     from rigid.policies.opening import Opening
     from rigid.tasks.protocol import Task
@@ -34,13 +36,28 @@ class MeasuredTaskOptions:
         Raises:
             UserError: There is none of this name, or it takes no such agents.
         """
-        from rigid.tasks.registry import make_task
+        from rigid.tasks.registry import make_task, task_parameters
 
         if self.task is None:
             return None
         named = ("human_agent", "robot_agent", "horizon")
-        given = {name: getattr(self, name) for name in named}
-        return make_task(self.task, **{k: v for k, v in given.items() if v is not None})
+        given = {k: v for k in named if (v := getattr(self, k)) is not None}
+        known = task_parameters(self.task)
+        for name, value in given.items():
+            if known is not None and name not in known:
+                option = name.replace("_", "-")
+                raise UserError(
+                    f"--{option} {value}: {self.task} takes no {option}, leave the option out"
+                )
+        task = make_task(self.task, **given)
+        if self.horizon is not None and task.return_range is not None:
+            usual = make_task(self.task).horizon
+            if self.horizon != usual:
+                raise UserError(
+                    f"--horizon {self.horizon}: an episode of {self.task} has {usual} steps, to "
+                    "which its range of adversarialness belongs: leave the option out"
+                )
+        return task
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -110,6 +110,26 @@ def at_least(option: str, value: int, least: int) -> None:
         raise UserError(f"{option} is {value}, but must be at least {least}")
 
 
+def parse_counts(option: str, text: str, *, least: int) -> tuple[int, ...]:
+    """Whole numbers as `5,10,20`, distinct and sorted.
+
+    Args:
+        option: Where they stand; for the message.
+        text: What the user wrote.
+        least: The smallest number that makes sense.
+
+    Example:
+        >>> parse_counts("--raters", "20,5,10", least=2)
+        (5, 10, 20)
+    """
+    try:
+        counts = tuple(sorted({int(part) for part in text.split(",")}))
+    except ValueError:
+        raise UserError(f"{option} {text!r}: write whole numbers as 5,10,20") from None
+    at_least(option, counts[0], least)
+    return counts
+
+
 def spoken(seconds: float) -> str:
     """A duration as people say it.
 

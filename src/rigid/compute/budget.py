@@ -52,7 +52,7 @@ def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: fl
         needed = FIXED_SECONDS + per_seed / steps_per_second
         raise UserError(
             f"--budget is too short for preset {preset.name!r}: one seed of {least} iterations "
-            f"takes about {needed:.0f} s here"
+            f"takes about {needed:.0f} s here, more than the {seconds:g} s given"
         )
     return replace(preset, iterations=iterations, seeds=preset.seeds[:seeds])
 

@@ -35,7 +35,7 @@ def check_task(
     if recorded != task.name:
         raise UserError(
             f"{where} holds episodes of task {recorded!r}, not {task.name!r}: "
-            f"record some with `rigid record --task {task.name}`"
+            f"record some with `rigid record --task {task.name}`, or name theirs with --task"
         )
     difference = first_difference(description, task.describe())
     if difference is not None:

@@ -193,7 +193,10 @@ def _read_arrays(path: Path) -> dict[str, np.ndarray]:
             is_zip = file.read(4) == b"PK\x03\x04"
             file.seek(0)
             if not is_zip:
-                raise UserError(f"{path} is no .npz file: record one with `rigid record`")
+                raise UserError(
+                    f"{path} is no .npz file: record one with `rigid record`, or make one of your "
+                    "data with `rigid data import`"
+                )
             with np.load(file, allow_pickle=False) as archive:
                 return {name: archive[name] for name in archive.files}
     except FileNotFoundError:

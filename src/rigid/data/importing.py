@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
 from rigid.data.about import About
 from rigid.data.column_map import ColumnMap
@@ -28,7 +27,7 @@ from rigid.data.layout import (
 from rigid.data.resampling import Steps, are_labels, resample, take_steps
 from rigid.data.takes import Recording, Take
 from rigid.errors import UserError
-from rigid.tasks.protocol import NamesUnits, Task, control_period
+from rigid.tasks.protocol import BoundedTask, NamesUnits, Task, control_period
 
 
 class Imported(NamedTuple):
@@ -40,11 +39,6 @@ class Imported(NamedTuple):
     """One for each take, in their order."""
     computed: tuple[str, ...]
     """Positions whose velocities had to be computed."""
-
-
-@runtime_checkable
-class _Bounded(Protocol):
-    def bounds(self, agent: str) -> Float[np.ndarray, "n 2"]: ...
 
 
 def wanted_columns(task: Task) -> frozenset[str]:
@@ -59,7 +53,7 @@ def wanted_columns(task: Task) -> frozenset[str]:
 
 def feature_limits(task: Task) -> Mapping[str, tuple[float, float]]:
     """The range of each feature that the human observes as well, where the task gives bounds."""
-    if not isinstance(task, _Bounded):
+    if not isinstance(task, BoundedTask):
         return {}
     bounds = dict(zip(task.human.observation_names, task.bounds("human"), strict=False))
     return {
@@ -129,7 +123,8 @@ def _check_robots(recording: Recording, robot: str | None) -> None:
     if robot is not None and robot not in met:
         raise UserError(
             f"{recording.where} holds no episode with robot {robot!r}, but with "
-            f"{', '.join(repr(name) for name in met) or 'robots without a name'}"
+            f"{', '.join(repr(name) for name in met) or 'robots without a name'}: "
+            f"{f'choose it, as with --met {met[0]}' if met else 'leave --met out'}"
         )
     if len(met) > 1 and robot is None:
         raise UserError(

@@ -86,6 +86,8 @@ def load_frontier(directory: Path | str) -> Frontier:
         UserError: There is no finished measurement, or its file is damaged.
     """
     folder = Path(directory)
+    if not folder.is_dir():
+        raise UserError(f"there is no directory {folder}: name a run of `rigid frontier`")
     path = folder / FILE
     cure = "run `rigid frontier` with this --out to finish it"
     # The file that is there would make that command call the measurement complete.

@@ -18,6 +18,7 @@ from rigid.errors import UserError
 from rigid.policies.discrete import taken
 from rigid.tasks.protocol import (
     AgentSpec,
+    BoundedTask,
     Step,
     Summary,
     Task,
@@ -139,6 +140,8 @@ class _SeenTask:
         self.control_period = control_period(task)
         own = feature_units(task)
         self.feature_units = {name: own[name] for name in features.names if name in own}
+        if isinstance(task, BoundedTask):
+            self.bounds = task.bounds
 
     def make_world(self, batch: int, *, threads: int = 0) -> World:
         return _SeenWorld(self._task, self._features, batch, threads)

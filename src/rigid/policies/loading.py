@@ -89,7 +89,10 @@ def _open(wanted: Wanted, opening: Opening) -> Policy:
             return _onnx(spec, wanted, opening)
         raise UserError(f"{wanted.label} {_why_unknown(spec, task, agent)}")
     if _KINDS[kind].runs_code and not opening.named_by_user:
-        raise UserError(f"{wanted.label} would run code that a file names: name it yourself")
+        raise UserError(
+            f"{wanted.label} would run code that a file names: name it "
+            "yourself, or say --trust (where a study names it) if you trust whoever wrote that file"
+        )
     if not place.strip():
         raise UserError(f"{wanted.label} names nothing: write {_KINDS[kind].form}")
     return _KINDS[kind].open(place, wanted, opening)
@@ -191,9 +194,10 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
     names = builtin_names(task, agent)
     if name not in names:
         listed = ", ".join(_BUILTIN + known for known in names) or "none"
+        way = "" if names else f"; train one with rigid train, or name yours with --{agent}"
         raise UserError(
             f"{agent} '{_BUILTIN}{name}' is unknown for task {task.name!r}"
-            f"{_suggestion(name, names)}; builtin {agent}s: {listed}"
+            f"{_suggestion(name, names)}; builtin {agent}s: {listed}{way}"
         )
     brought = task.builtin_policies(agent) if isinstance(task, BringsPolicies) else {}
     if name in brought:
@@ -218,6 +222,10 @@ def native_directory(spec: str, task: Task) -> Iterator[Path | None]:
 
 
 def _load_directory(directory: Path, wanted: Wanted) -> NativePolicy:
+    if not (directory / CARD_FILE).exists() and (directory / wanted.agent / CARD_FILE).is_file():
+        raise UserError(
+            f"{wanted.label} holds no policy itself: name '{directory / wanted.agent}' in it"
+        )
     policy, card = load_native(directory)
     check_made_for(wanted, card.agent, card.task.get("name"))
     return policy

@@ -16,8 +16,7 @@ from jaxtyping import Bool, Float, Int
 from rigid.report.motion import read_motion, tip_of
 
 _NEEDED = (
-    "bodies", "frames", "poses", "dt", "itch", "distance", "counted", "contacts", "force_unwanted",
-    "outcome",
+    "bodies", "frames", "poses", "dt", "itch", "distance", "contacts", "force_unwanted", "outcome",
 )  # fmt: skip
 ANCHORED = 0.01
 """A robot's body that never leaves a ball of this size is its shoulder or below [m]. Ours: Jaco's
@@ -69,8 +68,12 @@ class Episode:
     """Origins of the robot's bodies from its base on, then the tip [m]."""
     distance: Float[np.ndarray, " F"]
     """Tip to itch [m]."""
-    counted: Float[np.ndarray, " F"]
-    """Counted contacts so far."""
+    counted: Float[np.ndarray, " F"] | None
+    """Counted contacts so far; None in a task that counts none."""
+    spilled: Float[np.ndarray, " F"] | None
+    """Pieces of food that have fallen so far; None in a task without food."""
+    goal: str
+    """What the tool is to reach, in a word: where `itch` is."""
     force_unwanted: Float[np.ndarray, " F"]
     """Largest force where nothing should touch, in the step that ends at each frame [N]."""
     contacts: Contacts
@@ -113,7 +116,9 @@ def read_episode(scene: Mapping[str, Any] | None, replay: Mapping[str, Any]) -> 
         itching=motion.itch.body,
         chain=np.concatenate([motion.poses[:, robot, :3], path[:, None]], axis=1),
         distance=np.array(replay["distance"], float),
-        counted=np.array(replay["counted"], float),
+        counted=_counts(replay, "counted"),
+        spilled=_counts(replay, "spilled"),
+        goal=goal_of(scene),
         force_unwanted=motion.force_unwanted,
         contacts=_contacts(replay["contacts"]),
     )
@@ -132,6 +137,15 @@ def arm_of(episodes: Sequence[Episode]) -> Arm | None:
     shoulder = int(np.argmax(moved)) - 1
     links = np.linalg.norm(np.diff(chain[0, shoulder:], axis=0), axis=-1)
     return Arm(chain[:, shoulder].mean(axis=0), float(links.sum()))
+
+
+def goal_of(scene: Mapping[str, Any] | None) -> str:
+    """What the tool is to reach in a scene, in a word for readers."""
+    return "itch" if scene is None else str(scene.get("goal", "itch"))
+
+
+def _counts(replay: Mapping[str, Any], name: str) -> Float[np.ndarray, " F"] | None:
+    return None if replay.get(name) is None else np.array(replay[name], float)
 
 
 def _robot(scene: Mapping[str, Any]) -> list[int]:

@@ -28,6 +28,8 @@ LONG: Final = 0.25
 that would have helped."""
 BEGUN: Final = 5
 """Counted contacts from which on the robot had found the itch: a fifth of the 25 that help."""
+SPILLED: Final = 3
+"""Fallen pieces of food from which on no robot can help: it takes 6 of 8."""
 RESTLESS: Final = 1.5
 """The tip's way over that of canonical play from the same start. Canonical ways to one itch differ
 by 3 % from start to start; robots that swing about go 1.6 to 2.7 times as far."""
@@ -109,8 +111,8 @@ def _out_of_reach(episode: Episode, canonical: Episode | None) -> Found | None:
         return None
     return Found(
         _first(beyond),
-        f"the itch was up to {gap.max():.2f} m from the robot's shoulder; its arm reaches "
-        f"{arm.length:.2f} m",
+        f"the {episode.goal} was up to {gap.max():.2f} m from the robot's shoulder; its arm "
+        f"reaches {arm.length:.2f} m",
     )
 
 
@@ -124,11 +126,24 @@ def _thrashing(episode: Episode, canonical: Episode | None) -> Found | None:
     return Found(
         int(np.argmax(steps)) + 1,  # At its fastest.
         f"the tool went {steps.sum():.1f} m (canonical play: {usual:.1f} m), and was up to "
-        f"{_length(episode.distance.max())} from the itch",
+        f"{_length(episode.distance.max())} from the {episode.goal}",
+    )
+
+
+def _spilled(episode: Episode, _: Episode | None) -> Found | None:
+    if episode.spilled is None or episode.spilled[-1] < SPILLED:
+        return None
+    frame = _first(episode.spilled >= SPILLED)
+    return Found(
+        frame,
+        f"{episode.spilled[-1]:.0f} pieces of food fell, the third when the tool was "
+        f"{_length(episode.distance[frame])} from the {episode.goal}",
     )
 
 
 def _lost_contact(episode: Episode, _: Episode | None) -> Found | None:
+    if episode.counted is None:
+        return None
     total = int(episode.counted[-1])
     if total < BEGUN:
         return None
@@ -153,6 +168,8 @@ def _missed_spot(episode: Episode, _: Episode | None) -> Found | None:
 
 def _elsewhere(episode: Episode, *, itching: bool) -> Found | None:
     """Touches the arms, but not at the itch, on the limb that itches or on the others."""
+    if episode.counted is None:
+        return None
     contacts = episode.contacts
     gap = np.linalg.norm(contacts.place - episode.itch[contacts.frame], axis=1)
     off = ~contacts.unwanted & (gap > SPOT) & (episode.distance[contacts.frame] >= AT_ITCH)
@@ -171,7 +188,7 @@ def _elsewhere(episode: Episode, *, itching: bool) -> Found | None:
 
 def _too_little(episode: Episode, _: Episode | None) -> Found | None:
     near = episode.distance < AT_ITCH
-    if np.mean(near) < LONG:
+    if episode.counted is None or np.mean(near) < LONG:
         return None
     seconds, total = near.sum() * episode.dt, int(episode.counted[-1])
     return Found(_first(near), f"at the itch for {seconds:.1f} s, but {total} contacts counted")
@@ -186,7 +203,8 @@ def _stuck(episode: Episode, _: Episode | None) -> Found | None:
     gap = np.median(episode.distance[since:])
     return Found(
         since,
-        f"the tool hardly moved from {since * episode.dt:.1f} s on, {_length(gap)} from the itch",
+        f"the tool hardly moved from {since * episode.dt:.1f} s on, {_length(gap)} from the "
+        f"{episode.goal}",
     )
 
 
@@ -197,8 +215,8 @@ def _strayed(episode: Episode, _: Episode | None) -> Found | None:
         return None
     return Found(
         _first(farther > STRAYED),
-        f"the tool ended {_length(episode.distance[-1])} from the itch, which had moved by "
-        f"{_length(itch)}",
+        f"the tool ended {_length(episode.distance[-1])} from the {episode.goal}, which had moved "
+        f"by {_length(itch)}",
     )
 
 
@@ -212,20 +230,23 @@ def _kept_away(episode: Episode, canonical: Episode | None) -> Found | None:
         return None
     return Found(
         _first(beyond),
-        f"the itch was up to {_length(gap.max())} from the robot's shoulder, in canonical play "
-        f"up to {_length(usual)}",
+        f"the {episode.goal} was up to {_length(gap.max())} from the robot's shoulder, in "
+        f"canonical play up to {_length(usual)}",
     )
 
 
 def _unclear(episode: Episode, _: Episode | None) -> Found:
     nearest = int(np.argmin(episode.distance))
-    said = f"the tool came no nearer to the itch than {_length(episode.distance[nearest])}"
+    said = (
+        f"the tool came no nearer to the {episode.goal} than {_length(episode.distance[nearest])}"
+    )
     return Found(nearest, said)
 
 
 RULES: Final[tuple[tuple[Kind, Rule], ...]] = (
     ("unwanted_contact", _unwanted_contact),
     ("out_of_reach", _out_of_reach),
+    ("spilled", _spilled),
     ("thrashing", _thrashing),
     ("lost_contact", _lost_contact),
     ("wrong_limb", _wrong_limb),

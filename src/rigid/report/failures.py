@@ -15,7 +15,8 @@ from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically, writing_to
 from rigid.frontier.result import Frontier, load_frontier
-from rigid.report.failure_kinds import WORDS
+from rigid.report.episodes import goal_of
+from rigid.report.failure_kinds import words
 from rigid.report.payload import Failure, FailureMode, FailureModes
 
 _Which = Literal["worst", "median"]
@@ -35,13 +36,14 @@ class _Shown(NamedTuple):
 
 
 def group(
-    points: Sequence[Mapping[str, Any]], replays: Mapping[str, Any] | None
+    points: Sequence[Mapping[str, Any]], replays: Mapping[str, Any] | None, goal: str
 ) -> FailureModes | None:
     """The modes in which a robot fails, those of the most natural humans first.
 
     Args:
         points: As in `frontier.json`.
         replays: `rigid.report.payload.Payload`'s, each episode with its `failure`.
+        goal: What the tool is to reach, in a word.
 
     Returns:
         None where episodes failed, but nothing is known of any of them.
@@ -57,7 +59,7 @@ def group(
     by_mode: dict[tuple[str, str | None], list[_Shown]] = {}
     for seen in shown:
         by_mode.setdefault((seen.failure["kind"], seen.failure["part"]), []).append(seen)
-    modes = [_mode(members, humans) for members in by_mode.values()]
+    modes = [_mode(members, humans, goal) for members in by_mode.values()]
     modes.sort(key=lambda mode: (-mode["naturalness"][1], -mode["share"], mode["title"]))
     unseen = failed - sum(seen.share for seen in shown)
     return {"humans": len(judged), "modes": modes, "unseen": max(unseen, 0.0) / humans}
@@ -79,7 +81,9 @@ def failure_modes(directory: Path | str) -> FailureModes | None:
     if run.failures.exists():
         return _stored(run.failures)
     task = task_of(read_settings(run))
-    return None if task is None else group(frontier.points, replays(frontier, task))
+    if task is None:
+        return None
+    return group(frontier.points, replays(frontier, task), goal_of(task.scene()))
 
 
 def write_failures(frontier: Frontier, modes: FailureModes | None) -> None:
@@ -128,12 +132,12 @@ def _shown(point: Mapping[str, Any], replays: Mapping[str, Any]) -> Iterator[_Sh
         yield _Shown(point, name, episode["failure"], share)
 
 
-def _mode(members: Sequence[_Shown], humans: int) -> FailureMode:
+def _mode(members: Sequence[_Shown], humans: int, goal: str) -> FailureMode:
     """One mode from its episodes: of a human who shows it twice, the worst comes first."""
     natural = sorted(members, key=lambda seen: -seen.point["naturalness"])
     first = natural[0]
     kind, part = first.failure["kind"], first.failure["part"]
-    title, meaning = WORDS[kind]
+    title, meaning = words(kind, goal)
     return {
         "kind": kind,
         "part": part,

@@ -21,7 +21,7 @@ from rigid.frontier.result import Frontier, load_frontier, measured_points
 from rigid.frontier.statistics import interval_band, sound_points_by_seed
 from rigid.report.build import build_report
 from rigid.report.discriminators import discriminators
-from rigid.report.episodes import Episode, read_episode
+from rigid.report.episodes import Episode, goal_of, read_episode
 from rigid.report.failure_rules import classify
 from rigid.report.failures import group, write_failures
 from rigid.report.poses import encode_poses
@@ -64,6 +64,7 @@ def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
     """The report's `Payload`, read from the run directory of `frontier`."""
     task = task_of(settings)
     shown = None if task is None else replays(frontier, task)
+    scene = None if task is None else task.scene()
     return {
         "frontier": {**frontier.data, "points": _blamed(frontier)},
         "settings": settings,
@@ -73,10 +74,10 @@ def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
         "learning": {
             point["id"]: learning_curves(_folder(frontier, point)) for point in frontier.points
         },
-        "scene": None if task is None else task.scene(),
+        "scene": scene,
         "replays": shown,
         "discriminators": discriminators(frontier, task),
-        "failures": group(frontier.points, shown),
+        "failures": group(frontier.points, shown, goal_of(scene)),
     }
 
 

@@ -70,17 +70,19 @@ class Scene(TypedDict, total=False):
     The tool's tip is the body "tool_tip", else the geom "tip" or "…_tip". `rest` has a pose
     x, y, z, w, x, y, z for every body; it places those that no replay moves, which are else at
     the origin. `keypoints` are what `rigid export --keypoints` follows; without them, the tip and
-    the human's moving parts.
+    the human's moving parts. `goal` is what the tool is to reach, in a word for readers; "itch"
+    where a task does not say.
     """
 
     bodies: Sequence[str]
     geoms: Sequence[Geom]
     rest: Sequence[Sequence[float]]
     keypoints: Sequence[Keypoint]
+    goal: str
 
 
 class Itch(TypedDict):
-    """Where it itches, in the frame of a body."""
+    """Where it itches, or whatever else the tool is to reach, in the frame of a body."""
 
     body: int
     pos: Sequence[float]
@@ -104,9 +106,10 @@ class Replay(TypedDict, total=False):
     """One episode; `return` and `success` belong here too.
 
     `poses` is `rigid.report.encode_poses` of the moving `bodies`. A contact is frame, x, y, z,
-    force, kind (0 on the limb that itches, 1 elsewhere on the arms, 2 unwanted), and the bodies of
-    robot and person, where the task tells them. `failure` is null for a helped episode, and where
-    the task tells too little.
+    force, kind (0 where it is wanted, on the limb that itches, 1 elsewhere on the arms, 2
+    unwanted), and the bodies of robot and person, where the task tells them. `counted` are contacts
+    so far, `eaten` and `spilled` pieces of food, each where the task has such. `failure` is null
+    for a helped episode, and where the task tells too little.
     """
 
     seed: int
@@ -119,6 +122,8 @@ class Replay(TypedDict, total=False):
     force_itch: Sequence[float]
     distance: Sequence[float]
     counted: Sequence[float]
+    eaten: Sequence[float]
+    spilled: Sequence[float]
     contacts: Sequence[Sequence[float]]
     outcome: Literal["helped", "unhelped", "unwanted_contact"]
     failure: Failure | None

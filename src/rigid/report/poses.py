@@ -70,7 +70,12 @@ def decode_poses(text: str, *, frames: int, bodies: int) -> Float[np.ndarray, "f
         raise ValueError(f"poses are not base64: {error}") from error
     if len(raw) != 2 * frames * bodies * 7:
         raise ValueError(f"poses hold {len(raw)} bytes, not {frames} frames × {bodies} bodies × 14")
-    poses: Float[np.ndarray, "frames bodies 7"] = (
-        np.frombuffer(raw, dtype="<i2").reshape(frames, bodies, 7) * _UNITS
-    )
+    return restore_poses(np.frombuffer(raw, dtype="<i2").reshape(frames, bodies, 7))
+
+
+def restore_poses(
+    quantized: Int16[np.ndarray, "frames bodies 7"],
+) -> Float[np.ndarray, "frames bodies 7"]:
+    """Returns what `quantize_poses` rounded, in metres and near-unit quaternions."""
+    poses: Float[np.ndarray, "frames bodies 7"] = quantized * _UNITS
     return poses

@@ -17,6 +17,7 @@ from rigid.learning.personalisation import PersonalisationSettings
 from rigid.presets import PRESETS
 from rigid.robots.pair import train_pair
 from rigid.robots.vanilla import train_vanilla
+from rigid.tasks.itch_scratching import posture
 from rigid.tasks.registry import make_task
 
 SEED = 0
@@ -52,6 +53,8 @@ def retrain(name: str) -> None:
         ):  # fmt: skip
             shutil.rmtree(home / part, ignore_errors=True)
             shutil.copytree(source, home / part)
+    if name == "itch-scratching":
+        posture.rewrite()
 
 
 if __name__ == "__main__":

@@ -17,7 +17,6 @@ from pettingzoo.utils.env import AECEnv
 
 from rigid.tasks.registry import make_task
 from rigid.tasks.views.pettingzoo import TwoPlayerEnv
-from rigid.tasks.views.single import BoundedTask
 
 
 def parallel_env(**parameters: Any) -> TwoPlayerEnv:
@@ -26,9 +25,7 @@ def parallel_env(**parameters: Any) -> TwoPlayerEnv:
     Raises:
         UserError: Unknown parameter or bad value.
     """
-    task = make_task("itch-scratching", **parameters)
-    assert isinstance(task, BoundedTask)
-    return TwoPlayerEnv(task)
+    return TwoPlayerEnv(make_task("itch-scratching", **parameters))
 
 
 def env(**parameters: Any) -> AECEnv:

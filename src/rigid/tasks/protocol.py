@@ -90,6 +90,29 @@ class World(Protocol):
 
 
 @runtime_checkable
+class KeepsMotion(Protocol):
+    """A world that can tell how its joints moved within a control step; optional."""
+
+    def keep_motion(self) -> None:
+        """Records the motion from now on; off at first, so that training does not pay for it.
+
+        Nothing else that the world does changes.
+        """
+        ...
+
+    def motion(self) -> Float[np.ndarray, "B S nq"]:
+        """Joint angles [rad] after each of the S physics steps of the last control step.
+
+        S is 1 after a reset, and until the first step that is recorded: the angles as they are.
+        Of a world that ran away in the step: S times its start.
+
+        Raises:
+            ValueError: `keep_motion` was not called.
+        """
+        ...
+
+
+@runtime_checkable
 class Task(Protocol):
     """A two-player task; build worlds with `make_world`."""
 
@@ -146,6 +169,15 @@ class NamesUnits(Protocol):
 
     feature_units: Mapping[str, str]
     """By the feature's name, such as rad or m/s; features without a unit are left out."""
+
+
+@runtime_checkable
+class BoundedTask(Task, Protocol):
+    """A task that says how large what its agents see can get; optional."""
+
+    def bounds(self, agent: str) -> Float[np.ndarray, "n 2"]:
+        """Finite (low, high) of each number that `agent` observes."""
+        ...
 
 
 @runtime_checkable

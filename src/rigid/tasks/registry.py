@@ -53,6 +53,15 @@ def make_task(name: str, **parameters: Any) -> Task:
     return recipe.build(**parameters)
 
 
+def task_parameters(name: str) -> tuple[str, ...] | None:
+    """What the task called `name` takes as parameters; None where only it knows.
+
+    Raises:
+        UserError: There is no such task.
+    """
+    return _recipe(name).parameters
+
+
 def task_from_description(description: Mapping[str, Any]) -> Task | None:
     """RIGID's own task that `Task.describe()` came from; None for any other.
 
@@ -198,4 +207,4 @@ def _check_known(what: str, given: Iterable[str], known: tuple[str, ...]) -> Non
 def _unknown(what: str, name: str, names: tuple[str, ...], *, listed: str = "Tasks") -> str:
     close = difflib.get_close_matches(name, names, n=1)
     suggestion = f", did you mean {close[0]!r}?" if close else "."
-    return f"{what} {name!r}{suggestion} {listed}: {', '.join(names)}"
+    return f"{what} {name!r}{suggestion} {listed}: {', '.join(names) or 'none'}"

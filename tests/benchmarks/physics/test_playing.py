@@ -84,7 +84,7 @@ def test_old_poses_are_those_of_a_coarser_step_and_angles_stay_current():
     for world in (fresh, old):
         world.reset(np.arange(1))
     seen = [world.step(np.ones((1, 7)), np.ones((1, 10))) for world in (fresh, old)]
-    sensors, data = old._sensors, old._records["sensordata"]
+    sensors, data = old._sensors, old._scene.records["sensordata"]
     # Entry s is the state before physics step s: the fourth last is 0.02 s old.
     expected = sensors.poses(data[:, -4]).tip - task_at(fine).chest
     np.testing.assert_allclose(seen[1].human_observation[:, :3], expected, rtol=1e-6)

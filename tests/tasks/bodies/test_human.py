@@ -135,6 +135,6 @@ def test_the_arm_rests_on_the_chair_and_not_in_it(task):
     deepest = 0.0
     for _ in range(30):
         world.step(np.zeros((1, 7)), press)
-        deepest = max(deepest, world._sensors.penetration(world._records["sensordata"])[0])
+        deepest = max(deepest, world._scene.penetration(world._scene.records["sensordata"])[0])
     assert 0 < deepest < 0.01
     assert mujoco.mj_id2name(task.model, mujoco.mjtObj.mjOBJ_GEOM, 0) == "right_arm_rest"

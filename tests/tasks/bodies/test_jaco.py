@@ -6,13 +6,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from rigid.tasks.bodies import jaco, scratcher
-from rigid.tasks.itch_scratching.starts import GOAL, GOAL_ROTATION, GOAL_SPREAD, ArmKinematics
+from rigid.tasks.itch_scratching.starts import STARTS
 from tests.tasks.scripted import posed
 
 
 @pytest.fixture
 def arm(task):
-    return ArmKinematics(task.model)
+    return STARTS.kinematics(task.model)
 
 
 def test_the_straight_arm_reaches_as_high_as_the_published_one(task, arm):
@@ -24,8 +24,8 @@ def test_the_straight_arm_reaches_as_high_as_the_published_one(task, arm):
 def test_a_start_found_by_the_original_lies_in_the_goal_box(arm):
     # Printed by the running original, to two decimals.
     position, rotation = arm.pose(np.array([1.65, 1.68, 5.16, 2.07, 3.21, 1.19, 2.06]))
-    assert np.abs(position - GOAL).max() < GOAL_SPREAD
-    assert (GOAL_ROTATION.inv() * rotation).magnitude() < np.deg2rad(3)
+    assert np.abs(position - STARTS.goal).max() < STARTS.spread
+    assert (STARTS.rotation.inv() * rotation).magnitude() < np.deg2rad(3)
 
 
 def test_joint_limits_are_the_published_ones(arm):
@@ -60,9 +60,9 @@ def test_the_scratcher_points_out_of_the_palm(task):
 
 def test_every_start_lies_in_the_goal_box_with_the_palm_towards_the_arm(task, arm):
     poses = [arm.pose(angles) for angles in task.starts]
-    misses = np.array([position - GOAL for position, _ in poses])
-    turns = np.array([(GOAL_ROTATION.inv() * rotation).magnitude() for _, rotation in poses])
-    assert np.abs(misses).max() < GOAL_SPREAD
+    misses = np.array([position - STARTS.goal for position, _ in poses])
+    turns = np.array([(STARTS.rotation.inv() * rotation).magnitude() for _, rotation in poses])
+    assert np.abs(misses).max() < STARTS.spread
     assert turns.max() < np.deg2rad(1)
 
 

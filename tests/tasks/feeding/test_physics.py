@@ -1,11 +1,14 @@
 """Play stays physical, runaways are faults, and equal seeds play alike."""
 
+from importlib import resources
+
 import numpy as np
 import pytest
 
 from rigid.tasks.bodies import head, jaco
-from rigid.tasks.feeding import starts
 from rigid.tasks.feeding.food import Piece
+from rigid.tasks.feeding.starts import STARTS
+from rigid.tasks.physics.starts import COUNT
 
 
 def random_actions(rng, batch):
@@ -32,7 +35,7 @@ def test_random_episodes_stay_physical(task, held):
         if number % held == 0:
             action = rng.uniform(-1, 1, (32, 11)) if held == 1 else rng.choice([-1.0, 1], (32, 11))
         step = world.step(action[:, :7], action[:, 7:])
-        deepest = max(deepest, world._sensors.penetration(world._scene.records["sensordata"]).max())
+        deepest = max(deepest, world._scene.penetration(world._scene.records["sensordata"]).max())
         assert np.isfinite(step.reward).all()
     assert not step.faulted.any()
     assert deepest < 0.02
@@ -57,25 +60,25 @@ def test_seeds_draw_different_starts_and_heads(task):
 
 
 def test_the_start_poses_are_many_clear_and_small_on_disk(task):
-    assert starts.stored_starts().shape == (starts.COUNT, len(jaco.JOINT_NAMES))
-    assert len(np.unique(starts.stored_starts(), axis=0)) == starts.COUNT
-    assert len(task.starts) == starts.COUNT
-    file = starts.resources.files("rigid.tasks.feeding") / "starts.npz"
+    assert STARTS.stored().shape == (COUNT, len(jaco.JOINT_NAMES))
+    assert len(np.unique(STARTS.stored(), axis=0)) == COUNT
+    assert len(task.starts) == COUNT
+    file = resources.files("rigid.tasks.feeding") / "starts.npz"
     assert len(file.read_bytes()) < 50_000
 
 
 def test_a_start_is_where_the_original_begins(task):
-    arm = starts.arm_kinematics(task.model)
+    arm = STARTS.kinematics(task.model)
     for angles in task.starts[::32]:
         place, turned = arm.pose(angles)
-        assert (np.abs(place - starts.GOAL) < starts.GOAL_SPREAD + 0.01).all()
-        assert (starts.GOAL_ROTATION.inv() * turned).magnitude() < np.deg2rad(1)
+        assert (np.abs(place - STARTS.goal) < STARTS.spread + 0.01).all()
+        assert (STARTS.rotation.inv() * turned).magnitude() < np.deg2rad(1)
 
 
 @pytest.mark.slow
 def test_starts_can_be_solved_again(task):
-    arm = starts.arm_kinematics(task.model)
-    assert all(arm.clear(angles) for angles in starts.solve_starts(task.parameters, 2, seed=1))
+    arm = STARTS.kinematics(task.model)
+    assert all(arm.clear(angles) for angles in STARTS.solve(task.build_spec(), 2, seed=1))
 
 
 @pytest.mark.parametrize("value", [np.nan, 60.0, 1e12], ids=["nan", "fast", "huge"])

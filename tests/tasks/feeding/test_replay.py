@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from rigid.report.episodes import read_episode
+from rigid.report.failure_rules import classify
 from rigid.report.motion import read_motion
 from rigid.tasks.feeding.food import Piece
 
@@ -21,6 +23,15 @@ def test_the_goal_rides_on_the_mouth(shown):
     gap = np.linalg.norm(motion.path(motion.itch) - motion.poses[:, spoon, :3], axis=1)
     np.testing.assert_allclose(gap, replay["distance"], atol=1e-3)
     assert replay["itch"]["limb"] == "mouth"
+
+
+def test_an_episode_tells_what_went_wrong_in_the_words_of_the_task(shown):
+    scene, replay, _ = shown
+    falling = np.clip(np.arange(replay["frames"]) - 10, 0, 3).tolist()
+    spilled = {**replay, "outcome": "unhelped", "spilled": falling}
+    failure = classify(read_episode(scene, spilled), None)
+    assert (failure["kind"], failure["frame"]) == ("spilled", 13)
+    assert failure["says"].endswith("cm from the mouth")
 
 
 def test_food_rides_on_the_spoon_until_it_is_eaten_in_the_head(shown):
@@ -68,13 +79,6 @@ def test_contacts_tell_spoon_and_mouth_from_the_rest(task, fed):
     found = {(mark[5], bodies[mark[6]], bodies[mark[7]]) for mark in replay["contacts"]}
     assert (0, "spoon", "head") in found
     assert all(kind == 0 for kind, robot, person in found if (robot, person) == ("spoon", "head"))
-
-
-def test_the_report_is_told_no_failure_of_another_task(shown):
-    from rigid.report.episodes import read_episode
-
-    scene, replay, _ = shown
-    assert read_episode(scene, replay | {"outcome": "unhelped"}) is None
 
 
 def test_every_shape_can_be_drawn(task):

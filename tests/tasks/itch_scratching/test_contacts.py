@@ -60,7 +60,7 @@ def scratched(task):
         state = world._batch.state.copy()
         step = world.step(robot.act(world.itch), np.zeros((6, 10)))
         rows.append((state, world._batch.bind("ctrl").copy(),
-                     world._records["sensordata"].copy(), step))  # fmt: skip
+                     world._scene.records["sensordata"].copy(), step))  # fmt: skip
     return world, rows
 
 

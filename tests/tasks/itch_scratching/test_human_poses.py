@@ -8,7 +8,6 @@ import pytest
 from rigid.naturalness.features import choose_features, seen_through
 from rigid.tasks.bodies.human import ARM_JOINTS
 from rigid.tasks.bodies.sizes import BODIES
-from rigid.tasks.itch_scratching.replay import human_poses
 from rigid.tasks.protocol import DrawsFeatures
 
 ARM = ("right_shoulder", "right_upper_arm", "right_forearm", "right_hand")
@@ -62,7 +61,7 @@ def test_angles_beyond_a_joints_limit_are_drawn_as_they_are(task):
     names = list(ARM_JOINTS)
     bent = np.zeros((2, 10))
     bent[1, names.index("elbow")] = np.pi  # The limit is 0.
-    poses = human_poses(task.model, names, bent)["poses"]
+    poses = task.human_poses(names, bent)["poses"]
     upper, fore, hand = poses[:, 1:, :3].swapaxes(0, 1)
     size = BODIES["male"]
     np.testing.assert_allclose(fore[1], fore[0])

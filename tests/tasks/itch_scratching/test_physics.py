@@ -22,7 +22,7 @@ def test_random_episodes_stay_physical(task, draw, held, batch):
         if number % held == 0:
             action = draw(rng, batch)
         step = world.step(action[:, :7], action[:, 7:])
-        deepest = max(deepest, world._sensors.penetration(world._records["sensordata"]).max())
+        deepest = max(deepest, world._scene.penetration(world._scene.records["sensordata"]).max())
         angles = world._batch.bind("qpos")
         beyond = max(beyond, (angles - high).max(), (low - angles).max())
         assert np.isfinite(step.reward).all()

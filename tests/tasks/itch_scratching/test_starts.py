@@ -1,12 +1,15 @@
 """An episode's start depends on its seed and on nothing else."""
 
+from importlib import resources
+
 import mujoco
 import numpy as np
 import pytest
 
 from rigid.errors import UserError
-from rigid.tasks.bodies import human, jaco, scratcher
-from rigid.tasks.itch_scratching import starts
+from rigid.tasks.bodies import human, jaco, kinematics, scratcher
+from rigid.tasks.itch_scratching.starts import STARTS
+from rigid.tasks.physics.starts import COUNT
 from tests.tasks.scripted import random_actions
 
 
@@ -69,47 +72,47 @@ def test_the_robot_starts_in_a_clear_pose_joint_by_joint(task):
 
 
 def test_the_start_poses_are_many_and_small_on_disk():
-    assert starts.stored_starts().shape == (starts.COUNT, len(jaco.JOINT_NAMES))
-    assert len(np.unique(starts.stored_starts(), axis=0)) == starts.COUNT
-    file = starts.resources.files("rigid.tasks.itch_scratching") / "starts.npz"
+    assert STARTS.stored().shape == (COUNT, len(jaco.JOINT_NAMES))
+    assert len(np.unique(STARTS.stored(), axis=0)) == COUNT
+    file = resources.files("rigid.tasks.itch_scratching") / "starts.npz"
     assert len(file.read_bytes()) < 50_000
 
 
 def test_starts_lie_on_one_branch():
-    assert np.ptp(starts.stored_starts(), axis=0).max() < 1.0
+    assert np.ptp(STARTS.stored(), axis=0).max() < 1.0
 
 
 def test_inverse_kinematics_reach_a_goal_near_a_start(task):
-    arm = starts.ArmKinematics(task.model)
-    goal = starts.GOAL + (0.03, -0.02, 0.01)
+    arm = STARTS.kinematics(task.model)
+    goal = STARTS.goal + (0.03, -0.02, 0.01)
     angles = arm.solve(goal, task.starts[0])
     position, rotation = arm.pose(angles)
     np.testing.assert_allclose(position, goal, atol=0.01)
-    assert (starts.GOAL_ROTATION.inv() * rotation).magnitude() < np.deg2rad(1)
+    assert (STARTS.rotation.inv() * rotation).magnitude() < np.deg2rad(1)
 
 
 def test_inverse_kinematics_say_when_a_goal_is_out_of_reach(task):
-    arm = starts.ArmKinematics(task.model)
+    arm = STARTS.kinematics(task.model)
     assert arm.solve(np.array([5.0, 0.0, 0.8]), task.starts[0]) is None
 
 
 def test_a_pose_that_touches_the_person_is_not_clear(task):
-    arm = starts.ArmKinematics(task.model)
+    arm = STARTS.kinematics(task.model)
     angles = arm.solve(np.array([-0.4, 0.03, 0.9]), task.starts[0])
     assert not arm.clear(angles)
 
 
 @pytest.mark.slow
 def test_starts_can_be_solved_again(task):
-    solved = starts.solve_starts(task.parameters, count=2, seed=1)
-    arm = starts.ArmKinematics(task.model)
+    solved = STARTS.solve(task.build_spec(), count=2, seed=1)
+    arm = STARTS.kinematics(task.model)
     for angles in solved:
         position, _ = arm.pose(angles)
-        assert np.abs(position - starts.GOAL).max() < starts.GOAL_SPREAD + 0.01
+        assert np.abs(position - STARTS.goal).max() < STARTS.spread + 0.01
         assert arm.clear(angles)
 
 
 def test_a_scene_without_clear_starts_is_refused(task, monkeypatch):
-    monkeypatch.setattr(starts.ArmKinematics, "clear", lambda *_: False)
+    monkeypatch.setattr(kinematics.ArmKinematics, "clear", lambda *_: False)
     with pytest.raises(UserError, match="only 0 of 256 start poses are free of collisions"):
-        starts.clear_starts(task.model)
+        STARTS.clear(task.model)

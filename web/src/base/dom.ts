@@ -9,7 +9,9 @@ const SVG_NAMESPACE = "http://www.w3.org/2000/svg";
 function fill(element: Element, attributes: Record<string, Value>, children: readonly Child[]): void {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
-    element.setAttribute(name, value === true ? "" : String(value));
+    // Through the object model: a strict content policy refuses style attributes.
+    if (name === "style") (element as HTMLElement | SVGElement).style.cssText = String(value);
+    else element.setAttribute(name, value === true ? "" : String(value));
   }
   append(element, children);
 }

@@ -18,9 +18,10 @@ export class Signal<T> {
     for (const watcher of this.#watchers) watcher(next);
   }
 
-  /** Calls `watcher` now and after every change. */
-  watch(watcher: (value: T) => void): void {
+  /** Calls `watcher` now and after every change, until the returned function is called. */
+  watch(watcher: (value: T) => void): () => void {
     this.#watchers.add(watcher);
     watcher(this.#value);
+    return () => this.#watchers.delete(watcher);
   }
 }

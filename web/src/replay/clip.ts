@@ -33,6 +33,8 @@ export interface Scene {
   readonly geoms: readonly Geom[];
   /** Where bodies stand that no episode moves; the world's origin where nothing is said. */
   readonly rest: readonly Pose[];
+  /** What the tool is to reach, in a word. */
+  readonly goal: string;
 }
 
 const ORIGIN: Pose = { position: [0, 0, 0], rotation: [1, 0, 0, 0] };
@@ -56,7 +58,11 @@ export interface Clip {
   readonly forceUnwanted: readonly number[];
   readonly forceItch: readonly number[];
   readonly distance: readonly number[];
+  /** Counted contacts so far; empty in a task that counts none. */
   readonly counted: readonly number[];
+  /** Pieces of food eaten, and fallen, so far; in a task with food. */
+  readonly eaten?: readonly number[];
+  readonly spilled?: readonly number[];
   readonly contacts: readonly Contact[];
   readonly return: number | null;
   readonly success: boolean | null;
@@ -102,7 +108,7 @@ export function readScene(value: unknown): Scene | null {
     const values = list(pose);
     return { position: vector(values.slice(0, 3)), rotation: quaternion(values.slice(3, 7)) };
   });
-  return geoms.length === 0 ? null : { bodies, geoms, rest };
+  return geoms.length === 0 ? null : { bodies, geoms, rest, goal: text(raw["goal"], "itch") };
 }
 
 /** Where a body stands that no episode moves. */
@@ -163,6 +169,8 @@ export function readClip(value: unknown): Clip | null {
     forceItch: numbers(raw["force_itch"]),
     distance: numbers(raw["distance"]),
     counted: numbers(raw["counted"]),
+    eaten: numbers(raw["eaten"]),
+    spilled: numbers(raw["spilled"]),
     contacts: list(raw["contacts"]).flatMap(readContact),
     return: number(raw["return"]),
     success: typeof raw["success"] === "boolean" ? raw["success"] : null,

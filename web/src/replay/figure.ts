@@ -77,6 +77,12 @@ export class Figure {
     });
   }
 
+  /** Hides a body, such as the head of the person through whose eyes one looks. */
+  hide(body: number, hidden: boolean): void {
+    const group = this.#bodies.get(body);
+    if (group) group.visible = !hidden;
+  }
+
   /** Frees what the graphics card holds. */
   dispose(): void {
     for (const mesh of this.#meshes) {

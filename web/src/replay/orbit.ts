@@ -38,8 +38,8 @@ export function orbit(camera: PerspectiveCamera, canvas: HTMLCanvasElement): Orb
   return controls;
 }
 
-/** The camera's offset after a key; z is up here, y in three's spherical coordinates. */
-function moved(offset: Vector3, [around, up, scale]: readonly [number, number, number]): Vector3 {
+/** The camera's offset from its target after a turn; z is up here, y in three's spherical coordinates. */
+export function moved(offset: Vector3, [around, up, scale]: readonly [number, number, number]): Vector3 {
   const place = new Spherical().setFromVector3(new Vector3(offset.x, offset.z, -offset.y));
   place.theta += around;
   place.phi += up;

@@ -61,11 +61,11 @@ class ItchMark {
 
   update(position: Vector, camera: Camera): void {
     this.root.position.set(...position);
-    this.#halo.quaternion.copy(camera.quaternion);
+    camera.getWorldQuaternion(this.#halo.quaternion);
   }
 }
 
-/** Traces of one episode. */
+/** Traces of one episode; without `trails` no paths, as for an episode that still goes on. */
 export class Traces {
   readonly root = new Group();
   readonly #tip: Trail | null;
@@ -73,12 +73,12 @@ export class Traces {
   readonly #itch: ItchMark | null;
   readonly #contacts: readonly { readonly contact: Contact; readonly ball: Mesh<SphereGeometry, MeshBasicMaterial>; readonly geom: number }[];
 
-  constructor(private readonly clip: Clip, private readonly scene: Scene) {
-    const tip = tipOf(scene);
+  constructor(private readonly clip: Clip, private readonly scene: Scene, trails = true) {
+    const tip = trails ? tipOf(scene) : null;
     const tipPath = tip && pathOf(clip, tip.body, tip.point);
-    const itchPath = clip.itch && pathOf(clip, clip.itch.body, clip.itch.pos);
+    const itchPath = trails && clip.itch && pathOf(clip, clip.itch.body, clip.itch.pos);
     this.#tip = tipPath && new Trail(tipPath);
-    this.#itchPath = itchPath && new Trail(itchPath);
+    this.#itchPath = itchPath ? new Trail(itchPath) : null;
     this.#itch = clip.itch && new ItchMark();
     const sphere = new SphereGeometry(1, 16, 12);
     this.#contacts = clip.contacts.map((contact) => ({

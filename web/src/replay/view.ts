@@ -15,16 +15,21 @@ import { Traces } from "./traces.js";
 import { FIELD_OF_VIEW, viewpointFor, type Viewpoint } from "./viewpoint.js";
 
 export class View {
-  readonly #renderer: WebGLRenderer;
-  readonly #world = new World();
-  readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 30);
-  readonly #controls: OrbitControls;
-  readonly #figure: Figure;
+  readonly renderer: WebGLRenderer;
+  readonly world = new World();
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 30);
+  readonly controls: OrbitControls;
+  readonly figure: Figure;
+  /** Sees instead of `camera` while it is set: the eyes of a headset. */
+  eyes: PerspectiveCamera | null = null;
+  /** How strongly geoms light up (index → 0..1) instead of those that the episode's contacts hit. */
+  glow: ReadonlyMap<number, number> | null = null;
   readonly #sun = new DirectionalLight(0xffffff, 2.2);
   readonly #sky = new HemisphereLight(0xffffff, 0x8a8378, 2);
   readonly #ground = new ShadowMaterial();
   readonly #grid = new GridHelper(6, 24);
   readonly #size = new Vector2(1, 1);
+  #raised = 0;
   #look: Look | null = null;
   #ghost: { readonly figure: Figure; readonly clip: Clip } | null = null;
   #episode: { readonly clip: Clip; readonly traces: Traces } | null = null;
@@ -32,6 +37,9 @@ export class View {
   #time = 0;
   #led = false;
   #pending = false;
+  #resizes: ResizeObserver;
+  /** Pixels of the picture for each one of the screen, at most. */
+  #sharpness = 2;
 
   private constructor(
     readonly canvas: HTMLCanvasElement,
@@ -39,17 +47,18 @@ export class View {
     private readonly scene: Scene,
   ) {
     // Paper needs the last picture to survive, hence the preserved buffer.
-    this.#renderer = new WebGLRenderer({
+    this.renderer = new WebGLRenderer({
       canvas, context, antialias: true, alpha: true, preserveDrawingBuffer: true,
     });
-    this.#renderer.shadowMap.enabled = true;
-    this.#renderer.shadowMap.type = PCFShadowMap;
-    this.#figure = new Figure(scene);
-    this.#camera.up.set(0, 0, 1);
-    this.#controls = orbit(this.#camera, canvas);
-    this.#controls.addEventListener("change", () => this.draw());
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.figure = new Figure(scene);
+    this.camera.up.set(0, 0, 1);
+    this.controls = orbit(this.camera, canvas);
+    this.controls.addEventListener("change", () => this.draw());
     this.#furnish();
-    new ResizeObserver(() => this.#resize()).observe(canvas);
+    this.#resizes = new ResizeObserver(() => this.#resize());
+    this.#resizes.observe(canvas);
   }
 
   /** A view on `canvas`, or null where the browser has no WebGL. */
@@ -71,22 +80,22 @@ export class View {
     this.#sun.shadow.bias = -0.0008;
     this.#sun.shadow.normalBias = 0.01;
     Object.assign(this.#sun.shadow.camera, { left: -1.6, right: 1.6, top: 1.6, bottom: -1.6, near: 0.5, far: 8 });
-    this.#world.add(floor, this.#grid, this.#sun, this.#sun.target, this.#sky, this.#figure.root);
+    this.world.add(floor, this.#grid, this.#sun, this.#sun.target, this.#sky, this.figure.root);
   }
 
   /** Calls `watcher` whenever the reader moves the camera. */
   onOrbit(watcher: (position: Vector3, target: Vector3) => void): void {
-    this.#controls.addEventListener("change", () => {
-      if (!this.#led) watcher(this.#camera.position, this.#controls.target);
+    this.controls.addEventListener("change", () => {
+      if (!this.#led) watcher(this.camera.position, this.controls.target);
     });
   }
 
   /** Looks from `position` at `target`; watchers hear nothing, or two views would chase each other. */
   lookFrom(position: Vector3, target: Vector3): void {
     this.#led = true;
-    this.#camera.position.copy(position);
-    this.#controls.target.copy(target);
-    this.#controls.update();
+    this.camera.position.copy(position);
+    this.controls.target.copy(target);
+    this.controls.update();
     this.#led = false;
     this.draw();
   }
@@ -96,14 +105,17 @@ export class View {
     if (this.#home) this.lookFrom(this.#home.position, this.#home.target);
   }
 
-  /** Shows an episode, or the empty scene. The camera stays once it has found its place. */
-  show(clip: Clip | null): void {
+  /**
+   * Shows an episode, or the empty scene. The camera stays once it has found its place. An episode
+   * that still goes on, whose `frames` grow, has no `trails` yet.
+   */
+  show(clip: Clip | null, trails = true): void {
     if (this.#episode) {
-      this.#world.remove(this.#episode.traces.root);
+      this.world.remove(this.#episode.traces.root);
       this.#episode.traces.dispose();
     }
-    this.#episode = clip && { clip, traces: new Traces(clip, this.scene) };
-    if (this.#episode) this.#world.add(this.#episode.traces.root);
+    this.#episode = clip && { clip, traces: new Traces(clip, this.scene, trails) };
+    if (this.#episode) this.world.add(this.#episode.traces.root);
     if (clip && !this.#home) {
       this.#home = viewpointFor(this.scene, clip);
       this.#sun.target.position.copy(this.#home.target);
@@ -113,14 +125,19 @@ export class View {
     if (this.#look) this.#paint(this.#look);
   }
 
+  /** The episode that is shown. */
+  get clip(): Clip | null {
+    return this.#episode?.clip ?? null;
+  }
+
   /** Lays another episode's human over this one, translucent; null removes it. */
   overlay(clip: Clip | null): void {
     if (this.#ghost) {
-      this.#world.remove(this.#ghost.figure.root);
+      this.world.remove(this.#ghost.figure.root);
       this.#ghost.figure.dispose();
     }
     this.#ghost = clip && { clip, figure: new Figure(this.scene, true) };
-    if (this.#ghost) this.#world.add(this.#ghost.figure.root);
+    if (this.#ghost) this.world.add(this.#ghost.figure.root);
     if (this.#look) this.#paint(this.#look);
   }
 
@@ -131,7 +148,7 @@ export class View {
 
   #paint(look: Look): void {
     this.#look = look;
-    this.#figure.paint(look);
+    this.figure.paint(look);
     this.#ghost?.figure.paint(look);
     this.#episode?.traces.paint(look);
     this.#ground.opacity = look.shadow;
@@ -151,22 +168,47 @@ export class View {
 
   #resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (width === 0 || height === 0) return;
-    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.#renderer.setSize(width, height, false);
+    if (width === 0 || height === 0 || this.renderer.xr.isPresenting) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.#sharpness));
+    this.renderer.setSize(width, height, false);
     this.#size.set(width, height);
-    this.#camera.aspect = width / height;
-    this.#camera.updateProjectionMatrix();
+    this.camera.aspect = width / height;
+    this.raise(this.#raised);
     this.render();
+  }
+
+  /** Raises the picture by so much [px], where something covers its lower part. */
+  raise(pixels: number): void {
+    this.#raised = pixels;
+    const { x, y } = this.#size;
+    if (pixels === 0) this.camera.clearViewOffset();
+    else this.camera.setViewOffset(x, y, 0, pixels, x, y);
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Draws coarser and without shadows, for machines that are too slow; once more, coarser still. */
+  simplify(): void {
+    this.#sharpness = this.#sharpness > 1 ? 0.6 : 0.35;
+    this.#sun.castShadow = false;
+    this.#resize();
+  }
+
+  /** Goes farther from what it looks at, or closer, and calls that home. */
+  step(factor: number): void {
+    if (!this.#home) return;
+    const { position, target } = this.#home;
+    this.#home = { target, position: position.clone().sub(target).multiplyScalar(factor).add(target) };
+    this.reset();
   }
 
   /** Draws before the next frame of the screen, however often it is asked. */
   draw(): void {
-    if (this.#pending) return;
+    if (this.#pending || this.renderer.xr.isPresenting) return; // A headset asks by itself.
     this.#pending = true;
     requestAnimationFrame(() => {
       this.#pending = false;
-      this.render();
+      if (!this.renderer.xr.isPresenting) this.render();
     });
   }
 
@@ -175,11 +217,23 @@ export class View {
     const time = this.#time;
     if (this.#episode) {
       const { clip, traces } = this.#episode;
-      this.#figure.pose(clip, time);
-      this.#figure.flash(traces.update(time, this.#camera, this.#size));
+      this.figure.pose(clip, time);
+      const hits = traces.update(time, this.eyes ?? this.camera, this.#size);
+      this.figure.flash(this.glow ?? hits);
     }
     this.#ghost?.figure.pose(this.#ghost.clip, time);
-    this.#figure.root.visible = this.#episode !== null;
-    this.#renderer.render(this.#world, this.#camera);
+    this.figure.root.visible = this.#episode !== null;
+    this.renderer.render(this.world, this.eyes ?? this.camera);
+  }
+
+  /** Frees what the graphics card holds; the view is of no use afterwards. */
+  dispose(): void {
+    this.#resizes.disconnect();
+    this.controls.dispose();
+    this.show(null);
+    this.overlay(null);
+    this.figure.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss(); // Browsers keep few contexts; a page shows many views.
   }
 }

@@ -14,7 +14,7 @@ const ELEVATION = MathUtils.degToRad(24);
 const TURN = MathUtils.degToRad(24);
 
 /** Centres of the geoms of a role at some moments [share of the episode]. */
-function centersOf(scene: Scene, clip: Clip, role: string, shares: readonly number[]): Vector3[] {
+export function centersOf(scene: Scene, clip: Clip, role: string, shares: readonly number[]): Vector3[] {
   const moments = shares.map((share) => Math.round(share * (clip.frames - 1)));
   return scene.geoms
     .filter((geom) => geom.role === role)
@@ -28,7 +28,7 @@ function mean(points: readonly Vector3[]): Vector3 {
 }
 
 /** Where the person faces, horizontally: a seated person's legs are before the trunk. */
-function facing(human: readonly Vector3[]): Vector3 {
+export function facing(human: readonly Vector3[]): Vector3 {
   const byHeight = [...human].sort((a, b) => a.z - b.z);
   const half = Math.floor(byHeight.length / 2);
   return mean(byHeight.slice(0, half)).sub(mean(byHeight.slice(half))).setZ(0);

@@ -46,28 +46,32 @@ class Pane {
   }
 }
 
-function strips(clip: Clip, canonical: Clip | null, physical: boolean): Strip[] {
+function strips(clip: Clip, canonical: Clip | null, physical: boolean, goal: string): Strip[] {
   const other = (values: readonly number[] | undefined): Strip["series"] =>
     values?.length ? [{ kind: "canonical", values }] : [];
+  const counts = (name: string, atLeast: number, values: readonly number[] = [], beside?: readonly number[]): Strip[] =>
+    values.length === 0 ? [] : [{ title: name, atLeast, format: (v) => fixed(v, 0),
+      series: [{ kind: "plain", values }, ...other(beside)] }];
   const centimetres = (values: readonly number[]): number[] => values.map((v) => 100 * v);
   return [
     { title: physical ? "unwanted force" : "unwanted force*", atLeast: 5, format: (v) => `${fixed(v, 1)} N`,
       series: [{ kind: "unwanted", values: clip.forceUnwanted, filled: true }, ...other(canonical?.forceUnwanted)] },
-    { title: physical ? "force at the itch" : "force at the itch*", atLeast: 5, format: (v) => `${fixed(v, 1)} N`,
+    { title: physical ? `force at the ${goal}` : `force at the ${goal}*`, atLeast: 5, format: (v) => `${fixed(v, 1)} N`,
       series: [{ kind: "itch", values: clip.forceItch }, ...other(canonical?.forceItch)] },
-    { title: "tool to itch", atLeast: 10, format: (v) => `${fixed(v, 1)} cm`,
+    { title: `tool to ${goal}`, atLeast: 10, format: (v) => `${fixed(v, 1)} cm`,
       series: [{ kind: "plain", values: centimetres(clip.distance) },
         ...other(canonical && centimetres(canonical.distance) || undefined)] },
-    { title: "counted contacts", atLeast: 10, format: (v) => fixed(v, 0),
-      series: [{ kind: "plain", values: clip.counted }, ...other(canonical?.counted)] },
+    ...counts("counted contacts", 10, clip.counted, canonical?.counted),
+    ...counts("pieces eaten", 8, clip.eaten, canonical?.eaten),
+    ...counts("pieces fallen", 8, clip.spilled, canonical?.spilled),
   ];
 }
 
-function pictureKey(): HTMLElement {
+function pictureKey(goal: string): HTMLElement {
   const item = (kind: string, name: string): HTMLElement =>
     h("li", {}, h("span", { class: `swatch ${kind}` }), name);
   return h("ul", { class: "legend picture-key" },
-    item("itch-dot", "itch and its path"), item("tip-line", "path of the tool"),
+    item("itch-dot", `${goal} and its path`), item("tip-line", "path of the tool"),
     item("unwanted-dot", "unwanted contact"), item("canonical-line", "canonical play, same start"));
 }
 
@@ -81,6 +85,7 @@ export function replayPanel(
         ? "Replays were not stored with this frontier, so there is no motion to show."
         : "This report knows nothing to draw of this task, so there is no motion to show; the numbers tell all there is."));
   }
+  const { goal } = payload.scene;
   const clock = new Clock();
   const which = new Signal<Which>("worst");
   const ghost = new Signal(false);
@@ -106,7 +111,7 @@ export function replayPanel(
     attack.show(name, clip, "No episode of this human was stored.");
     natural.show("canonical, same start", beside, clip ? "No canonical episode with this start was stored." : "");
     attack.view?.overlay(ghost.value ? beside : null);
-    live = clip ? strips(clip, beside, physical).map((strip) => new StripRow(strip, clip.frames, (t) => clock.seek(t))) : [];
+    live = clip ? strips(clip, beside, physical, goal).map((strip) => new StripRow(strip, clip.frames, (t) => clock.seek(t))) : [];
     rows.replaceChildren(...live.map(({ element }) => element));
     says.replaceChildren(...(clip ? wentWrong(clip, (frame) => clock.seek(frame)) : []));
     bar.load(clip);
@@ -125,7 +130,7 @@ export function replayPanel(
   ghost.watch((shown) => attack.view?.overlay(shown ? beside : null));
 
   const figure = h("figure", { class: "replay", "aria-label": "Replay" },
-    h("div", { class: "panes" }, attack.element, natural.element), bar.element, says, rows, pictureKey(),
+    h("div", { class: "panes" }, attack.element, natural.element), bar.element, says, rows, pictureKey(goal),
     caption(
       "An episode of the chosen human beside canonical play from the same start, at the same moment.",
       physical

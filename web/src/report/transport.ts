@@ -1,8 +1,9 @@
 /** Play, scrub, speed, worst or median: the controls below the two 3D views. */
-import { button, h, on, s } from "../base/dom.js";
+import { button, h, on } from "../base/dom.js";
 import type { Signal } from "../base/signal.js";
 import type { Clip } from "../replay/clip.js";
 import { SPEEDS, type Clock } from "../replay/clock.js";
+import { playButton } from "../replay/play-button.js";
 
 export type Which = "worst" | "median";
 
@@ -13,9 +14,6 @@ export interface Transport {
   /** Takes the keyboard to its first control, which plays. */
   focus(): void;
 }
-
-const PLAY = "M3 1.5v13l11-6.5z";
-const PAUSE = "M3 1.5h3.6v13H3zM9.4 1.5H13v13H9.4z";
 
 /** A set of buttons of which one is pressed. */
 function choice<T extends string | number>(
@@ -30,17 +28,6 @@ function choice<T extends string | number>(
   refresh();
   const element = h("div", { class: "choice", role: "group", "aria-label": name }, ...buttons.map((b) => b.element));
   return { element, refresh };
-}
-
-function playButton(clock: Clock): HTMLButtonElement {
-  const icon = s("path", { d: PLAY });
-  const element = button(s("svg", { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true" }, icon), () => clock.toggle());
-  element.className = "play";
-  clock.playing.watch((playing) => {
-    icon.setAttribute("d", playing ? PAUSE : PLAY);
-    element.setAttribute("aria-label", playing ? "Pause" : "Play");
-  });
-  return element;
 }
 
 function scrubber(clock: Clock): { readonly element: HTMLElement; readonly load: (clip: Clip | null) => void } {
@@ -87,11 +74,12 @@ export function transport(
   });
   ghost.watch((shown) => overlay.setAttribute("aria-pressed", String(shown)));
   const reset = button("reset view", resetViews, { class: "quiet" });
-  const play = playButton(clock);
+  const play = playButton(() => clock.toggle(), { play: "Play", pause: "Pause" });
+  clock.playing.watch(play.refresh);
   return {
-    element: h("div", { class: "transport" }, play, scrub.element,
+    element: h("div", { class: "transport" }, play.element, scrub.element,
       h("div", { class: "transport-options" }, episode.element, speed.element, overlay, reset)),
     load: scrub.load,
-    focus: () => play.focus({ preventScroll: true }),
+    focus: () => play.element.focus({ preventScroll: true }),
   };
 }

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
-from functools import partial
-from math import inf
-from typing import Any, Literal
+from dataclasses import dataclass, field
+from typing import ClassVar
 
-from rigid.tasks.bodies.person import Person, require
-
-_require = partial(require, "feeding")
+from rigid.tasks.physics.parameters import Simulated, Weights
 
 
 @dataclass(frozen=True, kw_only=True)
-class RewardWeights:
-    """Weights of the reward terms, all Assistive Gym's; the reward is shared by robot and human."""
+class RewardWeights(Weights):
+    """Weights of the reward terms, all Assistive Gym's."""
 
     distance: float = 1.0
     """Per metre between spoon and mouth."""
@@ -37,40 +33,17 @@ class RewardWeights:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FeedingParameters(Person):
+class FeedingParameters(Simulated):
     """Body, impairment and physics of one feeding task."""
+
+    task: ClassVar[str] = "feeding"
+    full_tremor_deg: ClassVar[float] = 20.0  # Assistive Gym, where the head moves.
 
     head_start_deg: float = 30.0
     """The head starts turned about each of its axes by up to this angle, in [0, 30] (Assistive
     Gym: 30); within the joint's limits."""
-    servo: Literal["paper", "datasheet"] = "paper"
-    """Torque caps of the arm: 1 N·m on every joint as in the original (its forces are unlike
-    those of a real arm) or Kinova's data sheet."""
     weights: RewardWeights = field(default_factory=RewardWeights)
-    horizon: int = 100
-    """Control steps of an episode. Ours, that of itch scratching (the original has 200)."""
-    physics_step: float = 0.02
-    """[s], as the original."""
-    substeps: int = 5
-    """Physics steps in a control step: 10 Hz (the original)."""
 
-    def __post_init__(self) -> None:
-        """Checks every value; raises `UserError` naming the bad one."""
-        self.check_person("feeding")
-        start = self.head_start_deg
-        _require(0 <= start <= 30, "head_start_deg", start, "in [0, 30]")
-        _require(self.servo in ("paper", "datasheet"), "servo", self.servo, "paper or datasheet")
-        _require(self.horizon >= 1, "horizon", self.horizon, "at least 1 step")
-        _require(0 < self.physics_step <= 0.02, "physics_step", self.physics_step, "in (0, 0.02] s")
-        _require(self.substeps >= 1, "substeps", self.substeps, "at least 1")
-        for name, weight in asdict(self.weights).items():
-            _require(0 <= weight < inf, f"weights.{name}", weight, "a number from 0 on")
-
-    def describe(self) -> dict[str, Any]:
-        """As JSON."""
-        return asdict(self)
-
-    @property
-    def tremor_deg(self) -> float:
-        """Amplitude of the tremor [deg], at most ±20° (Assistive Gym, where the head moves)."""
-        return 20.0 * self.severity if self.impairment == "tremor" else 0.0
+    def check(self) -> None:
+        """Checks how the head starts."""
+        self.require(0 <= self.head_start_deg <= 30, "head_start_deg", "in [0, 30]")

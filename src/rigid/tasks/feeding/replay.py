@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import mujoco
@@ -15,8 +14,9 @@ from rigid.tasks.feeding.food import ENOUGH, GRAVITY, PIECES, RADIUS, Piece
 from rigid.tasks.feeding.parameters import FeedingParameters
 from rigid.tasks.feeding.scene import PARTS, Below, add_food, build_spec, food_body
 from rigid.tasks.feeding.sensing import LIPS, Sensors
-from rigid.tasks.physics.again import fine_steps, simulate_again
-from rigid.tasks.physics.drawing import drawn_scene, motion, series
+from rigid.tasks.physics.again import simulate_again
+from rigid.tasks.physics.drawing import anchor, drawn_scene, motion, replayed
+from rigid.tasks.physics.parameters import finely
 from rigid.tasks.physics.touches import AT_TARGET, UNWANTED, Touch, TouchFinder
 
 
@@ -32,7 +32,7 @@ def scene(parameters: FeedingParameters) -> dict[str, Any]:
     model = drawn_model(parameters)
     # Food is drawn as furniture is, since tools are dark.
     pale = ("wheelchair", "table", *(food_body(index) for index in range(len(PIECES))))
-    drawn = drawn_scene(model, tool="spoon", furniture=pale)
+    drawn = drawn_scene(model, tool="spoon", furniture=pale, goal="mouth")
     bowl, (y, z) = model.geom(spoon.BOWL_GEOM), parameters.body_size.mouth
     keypoints = [
         {"name": "mouth", "body": int(model.body(head.HEAD_BODY).id), "pos": [0.0, y, z]},
@@ -45,34 +45,33 @@ def replay(
     parameters: FeedingParameters, snapshots: Float[np.ndarray, "T1 state"], below: Below
 ) -> Mapping[str, Any]:
     """One episode from its snapshots (`World.snapshot` after the reset and after each step)."""
-    control = parameters.physics_step * parameters.substeps
-    step, count = fine_steps(control)
-    model = drawn_model(replace(parameters, physics_step=step, substeps=count))
+    fine, control = finely(parameters), parameters.control_period
+    model, count = drawn_model(fine), fine.substeps
     contacts = Sensors(model).contacts(simulate_again(model, snapshots, count))
     poses, distance = motion(model, snapshots, spoon.SPOON_SITE, head.MOUTH_SITE)
     states = snapshots[:, -len(PIECES) :].astype(int)
     _place_food(model, poses, states, below, control)
-    moving = [i for i in range(model.nbody) if model.body_weldid[i] != 0]
     eaten = (states == Piece.EATEN).sum(axis=1)
-    site = model.site(head.MOUTH_SITE)
+    shown = replayed(
+        model,
+        (poses, distance),
+        control=control,
+        itch=mouth_of(model),
+        contacts=contacts,
+        at_target=contacts.force_mouth,
+    )
     return {
-        "dt": round(control, 6),
-        "frames": len(snapshots),
-        "bodies": moving,
-        "poses": poses[:, moving],
-        "itch": {
-            "body": int(site.bodyid[0]),
-            "pos": [round(float(x), 5) for x in site.pos],
-            "limb": "mouth",
-        },
-        "force_unwanted": series(contacts.force_unwanted.max(axis=1)),
-        "force_itch": series(contacts.force_mouth.max(axis=1)),
-        "distance": distance.round(4).tolist(),
+        **shown,
         "eaten": eaten.tolist(),
         "spilled": (states == Piece.SPILLED).sum(axis=1).tolist(),
         "contacts": _marks(model, snapshots, contacts.touched_unwanted, count),
         "success": int(eaten[-1]) >= ENOUGH,
     }
+
+
+def mouth_of(model: mujoco.MjModel) -> dict[str, Any]:
+    """Where food shall go, as the place of an itch: body, place in its frame [m], and its name."""
+    return anchor(model, head.MOUTH_SITE, "mouth")
 
 
 def _marks(

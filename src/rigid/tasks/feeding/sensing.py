@@ -8,9 +8,14 @@ import mujoco
 import numpy as np
 from jaxtyping import Bool, Float
 
-from rigid.tasks.bodies import head, jaco
+from rigid.tasks.bodies import head
 from rigid.tasks.feeding.scene import PARTS, SPOON_CONTACTS
-from rigid.tasks.physics.scene import normal_columns, sensor_start
+from rigid.tasks.physics.sensing import (
+    normal_columns,
+    person_columns,
+    sensor_columns,
+    sensor_start,
+)
 
 LIPS = 0.05
 """The spoon may touch the head within this distance of the mouth [m]; any other contact of robot
@@ -53,7 +58,7 @@ class Sensors:
     """Slices of `sensordata` for one model."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        self._person = np.stack([normal_columns(model, f"contact_{part}") for part in PARTS])
+        self._person = person_columns(model, PARTS)
         others = [part for part in PARTS if part != head.HEAD_BODY]
         self._spoon = np.stack(
             [normal_columns(model, f"spoon_{part}", SPOON_CONTACTS) for part in others]
@@ -61,11 +66,8 @@ class Sensors:
         # Of each contact of spoon and head: the force's three components, then the place.
         begin = sensor_start(model, f"spoon_{head.HEAD_BODY}")
         self._on_head = begin + 6 * np.arange(SPOON_CONTACTS)
-        roots = (jaco.BASE_BODY, "neck")
-        self._penetration = np.array([sensor_start(model, f"penetration_{root}") for root in roots])
-        sizes = {"position": 3, "velocity": 3, "rotation": 4}
         self._poses = {
-            name: sensor_start(model, name) + np.arange(sizes[name.rpartition("_")[2]])
+            name: sensor_columns(model, name)
             for name in (
                 "spoon_position", "spoon_rotation", "spoon_velocity", "end_effector_velocity",
                 "mouth_position", "head_position", "head_rotation",
@@ -107,8 +109,3 @@ class Sensors:
             force_unwanted=unwanted,
             touched_unwanted=np.any(unwanted > 0, axis=-1),
         )
-
-    def penetration(self, data: Float[np.ndarray, "B S n"]) -> Float[np.ndarray, " B"]:
-        """Deepest overlap of robot or head with anything in a control step [m]."""
-        depth: np.ndarray = -data[:, :, self._penetration].min(axis=(1, 2))
-        return depth

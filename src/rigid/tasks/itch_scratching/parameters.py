@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
-from functools import partial
-from math import inf
-from typing import Any, Literal
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
 
-from rigid.tasks.bodies.person import Person, require
-
-_require = partial(require, "itch-scratching")
+from rigid.tasks.physics.parameters import Simulated, Weights
 
 
 @dataclass(frozen=True, kw_only=True)
-class RewardWeights:
-    """Weights of the reward terms; the reward is shared by robot and human.
+class RewardWeights(Weights):
+    """Weights of the reward terms.
 
     Assistive Gym's values, but for `distance` and `unwanted_contact`: the paper raises the first
     and adds the second (appendix, 'Additional Details of the Environment Setup') without numbers.
@@ -37,8 +33,11 @@ class RewardWeights:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ItchScratchingParameters(Person):
+class ItchScratchingParameters(Simulated):
     """Body, impairment, itch and physics of one itch-scratching task."""
+
+    task: ClassVar[str] = "itch-scratching"
+    full_tremor_deg: ClassVar[float] = 10.0  # Assistive Gym.
 
     itch_limbs: tuple[Literal["forearm", "upper_arm"], ...] = ("forearm", "upper_arm")
     """Where it can itch: the middle of each named limb (paper: two fixed points)."""
@@ -46,43 +45,21 @@ class ItchScratchingParameters(Person):
     """Share of each limb's half length, in [0, 1], over which the itch of an episode is drawn, to
     either side of the middle; 1: anywhere along the limb (paper, appendix 'PALM': anywhere on the
     two arms. Ours has one arm that moves, so both of its limbs take the place of two arms)."""
-    servo: Literal["paper", "datasheet"] = "paper"
-    """Torque caps of the arm: 1 N·m on every joint as in the original (its forces are unlike
-    those of a real arm) or Kinova's data sheet."""
     weights: RewardWeights = field(default_factory=RewardWeights)
-    horizon: int = 100
-    """Control steps of an episode (paper, appendix B)."""
-    physics_step: float = 0.02
-    """[s], as the original."""
-    substeps: int = 5
-    """Physics steps in a control step: 10 Hz (the original)."""
 
-    def __post_init__(self) -> None:
-        """Checks every value; raises `UserError` naming the bad one."""
-        self.check_person("itch-scratching")
+    def check(self) -> None:
+        """Checks where it itches."""
         limbs = ("forearm", "upper_arm")
         known = bool(self.itch_limbs) and set(self.itch_limbs) <= set(limbs)
-        _require(known, "itch_limbs", self.itch_limbs, f"one or both of {limbs}")
-        _require(0 <= self.itch_spread <= 1, "itch_spread", self.itch_spread, "in [0, 1]")
-        _require(self.servo in ("paper", "datasheet"), "servo", self.servo, "paper or datasheet")
-        _require(self.horizon >= 1, "horizon", self.horizon, "at least 1 step")
-        _require(0 < self.physics_step <= 0.02, "physics_step", self.physics_step, "in (0, 0.02] s")
-        _require(self.substeps >= 1, "substeps", self.substeps, "at least 1")
-
-        for name, weight in asdict(self.weights).items():
-            _require(0 <= weight < inf, f"weights.{name}", weight, "a number from 0 on")
+        self.require(known, "itch_limbs", f"one or both of {limbs}")
+        self.require(0 <= self.itch_spread <= 1, "itch_spread", "in [0, 1]")
 
     def describe(self) -> dict[str, Any]:
         """As JSON; what came after the first release only where it departs from its default.
 
         So older runs, policies and episodes keep their identity.
         """
-        described = asdict(self)
+        described = super().describe()
         if self.itch_spread == 0:
             del described["itch_spread"]
         return described
-
-    @property
-    def tremor_deg(self) -> float:
-        """Amplitude of the tremor [deg], at most ±10° (Assistive Gym); flips every control step."""
-        return 10.0 * self.severity if self.impairment == "tremor" else 0.0

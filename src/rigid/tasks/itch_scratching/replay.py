@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
 import numpy as np
 from jaxtyping import Float
 
-from rigid.tasks.bodies import human, scratcher
+from rigid.tasks.bodies import scratcher
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
 from rigid.tasks.itch_scratching.reward import SUCCESS_CONTACTS
 from rigid.tasks.itch_scratching.scene import LIMBS, build_spec
 from rigid.tasks.itch_scratching.sensing import Sensors
 from rigid.tasks.itch_scratching.touches import contact_marks
-from rigid.tasks.physics.again import fine_steps, simulate_again
-from rigid.tasks.physics.drawing import chain_poses, drawn_scene, motion, series
+from rigid.tasks.physics.again import simulate_again
+from rigid.tasks.physics.drawing import anchor, drawn_scene, motion, replayed
+from rigid.tasks.physics.parameters import finely
 
 
 def scene(model: mujoco.MjModel) -> dict[str, Any]:
     """Bodies, shapes and resting poses as the report draws them."""
-    drawn = drawn_scene(model, tool="scratcher", furniture=("wheelchair",))
+    drawn = drawn_scene(model, tool="scratcher", furniture=("wheelchair",), goal="itch")
     return {**drawn, "keypoints": _keypoints(model)}
 
 
@@ -41,50 +41,40 @@ def replay(
     parameters: ItchScratchingParameters, snapshots: Float[np.ndarray, "T1 state"]
 ) -> Mapping[str, Any]:
     """One episode from its snapshots (`World.snapshot` after the reset and after each step)."""
-    fine, count = _fine(parameters)
-    model = build_spec(fine).compile()
-    itch = int(snapshots[0, -2])
-    site = model.site(f"itch_{LIMBS[itch]}")
-    if parameters.itch_spread:
-        site.pos[2] -= snapshots[0, -3]  # Limbs hang along -z of their frame.
+    fine = finely(parameters)
+    model, count = build_spec(fine).compile(), fine.substeps
+    itch, spread = int(snapshots[0, -2]), parameters.itch_spread > 0
+    target, shown = f"itch_{LIMBS[itch]}", itch_of(model, snapshots[0], spread=spread)
+    if spread:
+        model.site(target).pos[2] -= snapshots[0, -3]
     records = simulate_again(model, snapshots, count)
     contacts = Sensors(model).contacts(records, np.full(len(records), itch))
-    poses, distance = motion(model, snapshots, scratcher.TIP_SITE, f"itch_{LIMBS[itch]}")
-    moving = [i for i in range(model.nbody) if model.body_weldid[i] != 0]
     counted = snapshots[:, -1].astype(int).tolist()
     return {
-        "dt": round(parameters.physics_step * parameters.substeps, 6),
-        "frames": len(snapshots),
-        "bodies": moving,
-        "poses": poses[:, moving],
-        "itch": {
-            "body": int(site.bodyid[0]),
-            "pos": [round(float(x), 5) for x in site.pos],
-            "limb": LIMBS[itch].replace("_", " "),
-        },
-        "force_unwanted": series(contacts.force_unwanted.max(axis=1)),
-        "force_itch": series(contacts.force_itch.max(axis=1)),
-        "distance": distance.round(4).tolist(),
+        **replayed(
+            model,
+            motion(model, snapshots, scratcher.TIP_SITE, target),
+            control=parameters.control_period,
+            itch=shown,
+            contacts=contacts,
+            at_target=contacts.force_itch,
+        ),
         "counted": counted,
         "contacts": contact_marks(model, snapshots, contacts.touched_unwanted, count),
         "success": counted[-1] >= SUCCESS_CONTACTS,
     }
 
 
-def human_poses(
-    model: mujoco.MjModel, names: Sequence[str], features: Float[np.ndarray, "n f"]
-) -> dict[str, Any] | None:
-    """Bodies of the right arm and their poses (n, bodies, 7) at given joint angles.
+def itch_of(
+    model: mujoco.MjModel, snapshot: Float[np.ndarray, " state"], *, spread: bool
+) -> dict[str, Any]:
+    """Where it itches: body, place in its frame [m], and the limb in plain words.
 
     Args:
         model: The scene.
-        names: Of the features; the arm's joints must be among them.
-        features: Joint angles [rad], also beyond the joints' limits, and whatever else.
+        snapshot: Any of the episode (`World.snapshot`).
+        spread: Whether itches are spread along the limbs.
     """
-    return chain_poses(model, human.ARM_JOINTS, "right_shoulder", names, features)
-
-
-def _fine(parameters: ItchScratchingParameters) -> tuple[ItchScratchingParameters, int]:
-    """The same scene with fine physics steps, and how many of them fill a control step."""
-    step, count = fine_steps(parameters.physics_step * parameters.substeps)
-    return replace(parameters, physics_step=step, substeps=count), count
+    limb = LIMBS[int(snapshot[-2])]
+    below = float(snapshot[-3]) if spread else 0.0  # Limbs hang along -z of their frame.
+    return anchor(model, f"itch_{limb}", limb.replace("_", " "), below=below)

@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from rigid.tasks.bodies import human, jaco, scratcher
+from rigid.tasks.bodies import human, scratcher
 from rigid.tasks.itch_scratching.scene import LIMBS
-from rigid.tasks.physics.scene import normal_columns as _normals
-from rigid.tasks.physics.scene import sensor_start as _start
+from rigid.tasks.physics.sensing import normal_columns, person_columns, sensor_start
+from rigid.tasks.physics.sensing import sensor_columns as _columns
 
 SCRATCH_RADIUS = 0.025
 """A contact counts within this distance of the itch [m] (Assistive Gym)."""
@@ -54,20 +54,18 @@ class Sensors:
 
     def __init__(self, model: mujoco.MjModel) -> None:
         parts = human.ARM_PARTS + human.TRUNK_PARTS
-        self._person = np.stack([_normals(model, f"contact_{part}") for part in parts])
+        self._person = person_columns(model, parts)
         self._trunk = slice(len(human.ARM_PARTS), len(parts))
         geoms = (scratcher.TIP_GEOM, scratcher.ROD_GEOM)
         self._scratch = np.array(
-            [[_start(model, f"{geom}_{limb}") for geom in geoms] for limb in LIMBS]
+            [[sensor_start(model, f"{geom}_{limb}") for geom in geoms] for limb in LIMBS]
         )
-        roots = (jaco.BASE_BODY, "right_shoulder")
-        self._penetration = np.array([_start(model, f"penetration_{root}") for root in roots])
-        self._tool = _normals(model, "contact_tool")
-        self._tip = _start(model, "tip_position") + np.arange(3)
-        self._tip_quaternion = _start(model, "tip_rotation") + np.arange(4)
-        self._velocity = _start(model, "end_effector_velocity") + np.arange(3)
-        self._itches = np.stack([_start(model, f"itch_{limb}") + np.arange(3) for limb in LIMBS])
-        self._arm = np.stack([_start(model, name) + np.arange(3) for name in _ARM_LANDMARKS])
+        self._tool = normal_columns(model, "contact_tool")
+        self._tip = _columns(model, "tip_position")
+        self._tip_quaternion = _columns(model, "tip_rotation")
+        self._velocity = _columns(model, "end_effector_velocity")
+        self._itches = np.stack([_columns(model, f"itch_{limb}") for limb in LIMBS])
+        self._arm = np.stack([_columns(model, name) for name in _ARM_LANDMARKS])
 
     def poses(
         self, data: Float[np.ndarray, "B n"], shift: Float[np.ndarray, "B 2"] | None = None
@@ -133,8 +131,3 @@ class Sensors:
         limbs = arm[..., lower, :] - arm[..., upper, :]
         along: np.ndarray = limbs / np.linalg.norm(limbs, axis=-1, keepdims=True)
         return along
-
-    def penetration(self, data: Float[np.ndarray, "B S n"]) -> Float[np.ndarray, " B"]:
-        """Deepest overlap of robot or arm with anything in a control step [m]."""
-        depth: np.ndarray = -data[:, :, self._penetration].min(axis=(1, 2))
-        return depth

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from functools import cached_property
 from typing import Any
 
 import mujoco
 import numpy as np
 from jaxtyping import Float
 
-from rigid.tasks.bodies import human, jaco
+from rigid.tasks.bodies import human
+from rigid.tasks.by_hand import Handle
 from rigid.tasks.itch_scratching import observation
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
 from rigid.tasks.itch_scratching.scene import LIMBS, build_spec
-from rigid.tasks.itch_scratching.starts import clear_starts
+from rigid.tasks.itch_scratching.starts import STARTS
 from rigid.tasks.itch_scratching.world import ItchScratchingWorld
-from rigid.tasks.protocol import AgentSpec, Step
+from rigid.tasks.physics.task import DrivenTask, joint_features, joint_units
 
 RETURN_RANGE = (-270.0, 450.0)
 """Returns that map to adversarialness 1 and 0, frozen for version 0: the rounded mean returns of
@@ -25,7 +25,7 @@ RETURN_RANGE = (-270.0, 450.0)
 both with `builtin:vanilla`."""
 
 
-class ItchScratching:
+class ItchScratching(DrivenTask[ItchScratchingParameters]):
     """A robot arm scratches the itch of a seated person; only the person knows where it itches.
 
     Both agents share the reward. One of two fixed points itches, drawn per episode (any point of
@@ -34,18 +34,14 @@ class ItchScratching:
     """
 
     name = "itch-scratching"
-    version = 0
+    moving = human.ARM_JOINTS
+    poses_at_start = STARTS
     feature_names = (
-        *human.ARM_JOINTS,
-        *(f"{joint}_velocity" for joint in human.ARM_JOINTS),
+        *joint_features(human.ARM_JOINTS),
         *(f"itch_{limb}" for limb in LIMBS),
     )
-    feature_units: Mapping[str, str] = {
-        **dict.fromkeys(human.ARM_JOINTS, "rad"),
-        **{f"{joint}_velocity": "rad/s" for joint in human.ARM_JOINTS},
-    }
+    feature_units: Mapping[str, str] = joint_units(human.ARM_JOINTS)
     shown_human = observation.ARM_NAMES
-    outcome_names: tuple[str, ...] = ("helped", "unhelped", "unwanted_contact")
     return_range: tuple[float, float] | None = RETURN_RANGE
 
     def __init__(
@@ -58,26 +54,17 @@ class ItchScratching:
             itch_visible: Whether the robot sees the itch. Only for co-optimisation: a robot
                 measured by RIGID never does.
         """
-        self.parameters = parameters or ItchScratchingParameters()
         self.itch_visible = itch_visible
-        self.horizon = self.parameters.horizon
-        self.control_period = self.parameters.physics_step * self.parameters.substeps
-        names = observation.ROBOT_SEEING_NAMES if itch_visible else observation.ROBOT_NAMES
-        self.robot = AgentSpec(len(names), len(jaco.JOINT_NAMES), names)
-        self.human = AgentSpec(
-            len(observation.HUMAN_NAMES), len(human.ARM_JOINTS), observation.HUMAN_NAMES
+        seen = observation.ROBOT_SEEING_NAMES if itch_visible else observation.ROBOT_NAMES
+        super().__init__(
+            parameters or ItchScratchingParameters(),
+            robot_sees=seen,
+            human_sees=observation.HUMAN_NAMES,
         )
-        self.chest = np.array([0.0, 0.03, self.parameters.body_size.chest_height])
 
-    @cached_property
-    def model(self) -> mujoco.MjModel:
-        """The compiled scene."""
-        return build_spec(self.parameters).compile()
-
-    @cached_property
-    def starts(self) -> Float[np.ndarray, "n 7"]:
-        """Collision-free robot poses at the start [rad]."""
-        return clear_starts(self.model)
+    def build_spec(self) -> mujoco.MjSpec:
+        """Wheelchair, person, arm and scratcher, with their sensors."""
+        return build_spec(self.parameters)
 
     def seeing_the_itch(self) -> ItchScratching:
         """The same task with the itch in the robot's observation, for co-optimisation."""
@@ -90,20 +77,6 @@ class ItchScratching:
     def make_world(self, batch: int, *, threads: int = 0) -> ItchScratchingWorld:
         """Returns `batch` worlds stepped on `threads` threads (0: every core)."""
         return ItchScratchingWorld(self, batch, threads)
-
-    def features(self, step: Step) -> Float[np.ndarray, "B 22"]:
-        """Human joint angles [rad], velocities [rad/s] and one-hot itch; nothing of the robot."""
-        return step.features
-
-    def bounds(self, agent: str) -> Float[np.ndarray, "n 2"]:
-        """Finite (low, high) of each number that `agent` observes."""
-        names = {"robot": self.robot, "human": self.human}[agent].observation_names
-        ranges = {name: self.model.joint(name).range for name in self._joint_names}
-        robot = np.array([ranges[name] for name in jaco.JOINT_NAMES])
-        arm = np.array([ranges[name] for name in human.ARM_JOINTS])
-        return observation.bounds(names, robot, arm)
-
-    _joint_names = (*jaco.JOINT_NAMES, *human.ARM_JOINTS)
 
     def with_parameters(self, **changes: Any) -> ItchScratching:
         """The task with some parameters changed."""
@@ -121,13 +94,11 @@ class ItchScratching:
 
         return replay.replay(self.parameters, snapshots)
 
-    def human_poses(
-        self, names: Sequence[str], features: Float[np.ndarray, "n f"]
-    ) -> Mapping[str, Any] | None:
-        """The right arm at the joint angles among the features; None where some are missing."""
-        from rigid.tasks.itch_scratching import replay
+    def make_handle(self) -> Handle:
+        """The right hand, by which a player moves the arm."""
+        from rigid.tasks.itch_scratching.playing import RightHand
 
-        return replay.human_poses(self.model, names, features)
+        return RightHand(self.model, self.parameters)
 
     def describe(self) -> Mapping[str, Any]:
         """Name, version and parameters, as JSON.
@@ -135,10 +106,7 @@ class ItchScratching:
         Spread itches make another version: what was described before there were any, and so does
         not speak of them, must differ from it.
         """
-        spread = self.parameters.itch_spread > 0
-        return {
-            "name": self.name,
-            "version": f"{self.version}-spread" if spread else self.version,
-            "itch_visible": self.itch_visible,
-            "parameters": self.parameters.describe(),
-        }
+        described = {**super().describe(), "itch_visible": self.itch_visible}
+        if self.parameters.itch_spread > 0:
+            described["version"] = f"{self.version}-spread"
+        return described

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mujoco
 import numpy as np
 from jaxtyping import Float
+
+from rigid.tasks.physics.sensing import PersonContacts
 
 _TYPES = {
     mujoco.mjtGeom.mjGEOM_CAPSULE: "capsule",
@@ -18,13 +20,16 @@ _TYPES = {
 }
 
 
-def drawn_scene(model: mujoco.MjModel, *, tool: str, furniture: Sequence[str]) -> dict[str, Any]:
+def drawn_scene(
+    model: mujoco.MjModel, *, tool: str, furniture: Sequence[str], goal: str
+) -> dict[str, Any]:
     """Bodies, shapes and resting poses as the report draws them.
 
     Args:
         model: The scene; bodies of the robot begin with `jaco`.
         tool: Body that the robot holds; those that begin with its name belong to it.
         furniture: Bodies that are neither robot, tool nor person.
+        goal: What the tool is to reach, in a word for readers.
     """
     bodies = [model.body(i).name for i in range(model.nbody)]
     geoms = []
@@ -43,7 +48,12 @@ def drawn_scene(model: mujoco.MjModel, *, tool: str, furniture: Sequence[str]) -
         })  # fmt: skip
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    return {"bodies": bodies, "geoms": geoms, "rest": body_poses(data).round(5).tolist()}
+    return {
+        "bodies": bodies,
+        "geoms": geoms,
+        "rest": body_poses(data).round(5).tolist(),
+        "goal": goal,
+    }
 
 
 def _role(body: str, tool: str, furniture: Sequence[str]) -> str:
@@ -83,16 +93,14 @@ def motion(
 def chain_poses(
     model: mujoco.MjModel,
     joints: Sequence[str],
-    root: str,
     names: Sequence[str],
     features: Float[np.ndarray, "n f"],
 ) -> dict[str, Any] | None:
-    """Bodies of a chain and their poses (n, bodies, 7) at given joint angles.
+    """Bodies of the chain of `joints` and their poses (n, bodies, 7) at given joint angles.
 
     Args:
         model: The scene.
-        joints: The chain's.
-        root: Its first body.
+        joints: Of the chain, the first one first.
         names: Of the features; None is returned unless the joints are among them.
         features: Joint angles [rad], also beyond the joints' limits, and whatever else.
     """
@@ -100,7 +108,7 @@ def chain_poses(
         return None
     columns = [list(names).index(joint) for joint in joints]
     places = [int(model.joint(joint).qposadr[0]) for joint in joints]
-    first = model.body(root).id
+    first = model.body_rootid[model.joint(joints[0]).bodyid[0]]
     chain = [i for i in range(model.nbody) if model.body_rootid[i] == first]
     data, poses = mujoco.MjData(model), []
     for angles in features[:, columns]:
@@ -108,6 +116,53 @@ def chain_poses(
         mujoco.mj_kinematics(model, data)
         poses.append(body_poses(data)[chain])
     return {"bodies": chain, "poses": np.array(poses).reshape(-1, len(chain), 7)}
+
+
+def anchor(model: mujoco.MjModel, site: str, limb: str, *, below: float = 0.0) -> dict[str, Any]:
+    """A place on a body, as `rigid.report.payload.Itch` has it.
+
+    Args:
+        model: The scene.
+        site: Whose place it is.
+        limb: In words for readers.
+        below: How far below the site it is, in the body's frame [m].
+    """
+    place = model.site(site).pos - (0.0, 0.0, below)
+    position = [round(float(x), 5) for x in place]
+    return {"body": int(model.site(site).bodyid[0]), "pos": position, "limb": limb}
+
+
+def replayed(
+    model: mujoco.MjModel,
+    motion: tuple[Float[np.ndarray, "T1 bodies 7"], Float[np.ndarray, " T1"]],
+    *,
+    control: float,
+    itch: Mapping[str, Any],
+    contacts: PersonContacts,
+    at_target: Float[np.ndarray, "T S"],
+) -> dict[str, Any]:
+    """What every task shows of an episode, as `rigid.report.payload.Replay` has it.
+
+    Args:
+        model: The scene.
+        motion: Poses and distances, as `motion` returns them.
+        control: Length of a control step [s].
+        itch: Where the tool is to go, as `anchor` returns it.
+        contacts: Of every control step.
+        at_target: The wanted force at every physics step [N].
+    """
+    poses, distance = motion
+    moving = [i for i in range(model.nbody) if model.body_weldid[i] != 0]
+    return {
+        "dt": round(control, 6),
+        "frames": len(poses),
+        "bodies": moving,
+        "poses": poses[:, moving],
+        "itch": itch,
+        "force_unwanted": series(contacts.force_unwanted.max(axis=1)),
+        "force_itch": series(at_target.max(axis=1)),
+        "distance": distance.round(4).tolist(),
+    }
 
 
 def series(per_step: Float[np.ndarray, " T"]) -> list[float]:

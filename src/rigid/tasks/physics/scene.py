@@ -16,6 +16,8 @@ FRICTION = 0.25
 CONTACT_TIME = 0.04
 """Time constant of contacts and limits [s]: MuJoCo's least at the original's physics step, stated
 so that finer steps keep the same softness."""
+PENETRATION = "penetration_"
+"""How the names of sensors of overlaps begin."""
 FOUND, FORCE, DIST, POS = (
     1 << int(f)
     for f in (
@@ -76,9 +78,9 @@ def add_person_sensors(spec: mujoco.MjSpec, parts: Iterable[str]) -> None:
 
 
 def add_penetration_sensors(spec: mujoco.MjSpec, roots: Iterable[str]) -> None:
-    """The deepest overlap of each chain of bodies with anything, named `penetration_ROOT`."""
+    """The deepest overlap of each chain of bodies with anything."""
     for root in roots:
-        sensor = _contact_sensor(spec, f"penetration_{root}", mujoco.mjtObj.mjOBJ_XBODY, root)
+        sensor = _contact_sensor(spec, f"{PENETRATION}{root}", mujoco.mjtObj.mjOBJ_XBODY, root)
         sensor.intprm[:3] = (DIST, _MIN_DISTANCE, 1)
 
 
@@ -107,17 +109,6 @@ def add_frame_sensors(spec: mujoco.MjSpec, sensors: Iterable[tuple[str, str, str
     for name, measured, of in sensors:
         frame = mujoco.mjtObj.mjOBJ_SITE if of in sites else mujoco.mjtObj.mjOBJ_XBODY
         spec.add_sensor(name=name, type=kinds[measured], objtype=frame, objname=of)
-
-
-def sensor_start(model: mujoco.MjModel, name: str) -> int:
-    """First column of a sensor in `sensordata`."""
-    return int(model.sensor(name).adr[0])
-
-
-def normal_columns(model: mujoco.MjModel, name: str, count: int = CONTACTS_PER_PART) -> np.ndarray:
-    """Columns of the normal component of each contact kept by a force-only sensor."""
-    columns: np.ndarray = sensor_start(model, name) + 3 * np.arange(count)
-    return columns
 
 
 def driven_addresses(model: mujoco.MjModel, names: tuple[str, ...]) -> np.ndarray:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 from jaxtyping import Bool, Float
 from mujoco.batch import Batch
+
+from rigid.tasks.physics.sensing import penetration_reader
 
 TARGET_AHEAD = 0.25
 """A full action puts the target this far ahead of the measured angle [rad] (Assistive Gym)."""
@@ -27,16 +27,14 @@ class SteppedScene:
         *,
         threads: int,
         substeps: int,
-        penetration: Callable[[Float[np.ndarray, "B S n"]], Float[np.ndarray, " B"]],
     ) -> None:
         """Builds the batch.
 
         Args:
-            model: The scene; every joint is a driven hinge.
+            model: The scene; every joint is a driven hinge, and sensors see overlaps.
             size: Number of worlds, B.
             threads: Of the batch; 0: every core.
             substeps: Physics steps of a control step, S.
-            penetration: Deepest overlap [m] in each world's control step, from its sensors.
         """
         if mujoco.get_mju_user_warning() is None:
             # Faults are counted here; MuJoCo would log each to a file in the working directory.
@@ -47,13 +45,18 @@ class SteppedScene:
         self.records = {"sensordata": np.zeros((size, substeps, model.nsensordata))}
         self.start = np.zeros((size, model.nq))
         self.faulted = np.zeros(size, dtype=bool)
-        self._size, self._substeps, self._penetration = size, substeps, penetration
+        self._motion: Float[np.ndarray, "B S nq"] | None = None
+        self._size, self._substeps = size, substeps
+        self.penetration = penetration_reader(model)
+        """Deepest overlap [m] of robot or person with anything, from the sensors of a step."""
         self._limits = model.jnt_range.copy()
 
     def begin(self, start: Float[np.ndarray, "B nq"]) -> Float[np.ndarray, "B n"]:
         """Puts every world at its start, at rest; returns the sensors there."""
         self.start, self.faulted = start, np.zeros(self._size, dtype=bool)
         self._put_at_start(np.arange(self._size, dtype=np.int32))
+        if self._motion is not None:
+            self._motion = self._angles_now()
         return np.asarray(self.sensordata.copy())
 
     def _put_at_start(self, worlds: np.ndarray) -> None:
@@ -71,7 +74,7 @@ class SteppedScene:
             has just run away: S times its start.
         """
         self.batch.bind("ctrl")[:] = np.clip(target, *self._limits.T)
-        self.batch.rollout(self._substeps, record=("sensordata",), out=self.records)
+        self.batch.rollout(self._substeps, record=tuple(self.records), out=self.records)
         data = self.records["sensordata"]
         broken = self._broken(data)
         if broken.any():
@@ -79,7 +82,25 @@ class SteppedScene:
             self._put_at_start(worlds)
             data[worlds] = self.sensordata[worlds][:, None]
             self.faulted[worlds] = True
+        if self._motion is not None:
+            self._motion = self.records["qpos"]
+            self._motion[broken] = self.start[broken][:, None]
         return data
+
+    def keep_motion(self) -> None:
+        """See `rigid.tasks.protocol.KeepsMotion`."""
+        if self._motion is None:
+            self.records["qpos"] = np.zeros((self._size, self._substeps, self.start.shape[1]))
+            self._motion = self._angles_now()
+
+    def motion(self) -> Float[np.ndarray, "B S nq"]:
+        """See `rigid.tasks.protocol.KeepsMotion`."""
+        if self._motion is None:
+            raise ValueError("this world keeps no motion: call keep_motion() first")
+        return self._motion.copy()
+
+    def _angles_now(self) -> Float[np.ndarray, "B 1 nq"]:
+        return np.array(self.batch.bind("qpos"))[:, None]
 
     def _broken(self, data: Float[np.ndarray, "B S n"]) -> Bool[np.ndarray, " B"]:
         """Worlds whose physics ran away."""
@@ -88,5 +109,5 @@ class SteppedScene:
         broken |= ~np.isfinite(data).all(axis=(1, 2)) | (self.batch.status != 0)
         # A warning (bad control, full buffers) ends the world's control step early.
         broken |= self.batch.warning[..., 1].any(axis=1)
-        broken |= self._penetration(data) > MAX_PENETRATION
+        broken |= self.penetration(data) > MAX_PENETRATION
         return np.asarray(broken)

@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 
 from rigid.tasks.protocol import (
     AgentSpec,
+    BoundedTask,
     Step,
     Summary,
     Task,
@@ -34,6 +35,10 @@ class SeeingEverything:
             task.robot.action_size,
             choices=task.robot.choices,
         )
+        if isinstance(task, BoundedTask):
+            human = task.bounds("human")
+            both = np.concatenate([task.bounds("robot"), human])
+            self.bounds = {"robot": both, "human": human}.__getitem__
 
     def make_world(self, batch: int, *, threads: int = 0) -> World:
         """Returns `batch` worlds stepped on `threads` threads (0: every core)."""

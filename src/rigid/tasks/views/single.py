@@ -3,24 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 from gymnasium import spaces
 from jaxtyping import Float, Float32
 
-from rigid.tasks.protocol import Step, Task
+from rigid.tasks.protocol import BoundedTask, Step, Task
 
 AGENTS = ("robot", "human")
-
-
-@runtime_checkable
-class BoundedTask(Task, Protocol):
-    """A task that says how large what its agents see can get; optional."""
-
-    def bounds(self, agent: str) -> Float[np.ndarray, "n 2"]:
-        """Finite (low, high) of each number that `agent` observes."""
-        ...
 
 
 class SingleWorld:

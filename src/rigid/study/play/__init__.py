@@ -1,0 +1,1 @@
+"""A participant's live episode: the hand target in, every physics step of the scene out."""
