@@ -17,7 +17,7 @@ from tests.study.analysis.scripted_answers import halves
 from tests.study.toys import toy_plan
 
 HOSTILE = '</td><script>window.hacked=1</script><img src=x onerror="window.hacked=1"> $x$ $title'
-SETTINGS = AnalysisSettings(resamples=20)
+SETTINGS = AnalysisSettings()
 
 
 @pytest.fixture(scope="module")

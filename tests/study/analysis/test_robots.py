@@ -78,13 +78,18 @@ def test_three_robots_have_one_test_of_their_order():
 def test_runs_of_unlike_measure_are_not_compared():
     robots = {key: robot(key, heights=HEIGHTS[key]) for key in HEIGHTS}
     robots["b"].runs[0].frontier.data["return_range"][0] = -30.0
-    (pair,) = robot_order(robots, [], AnalysisSettings()).pairs
+    placed = place(robots["a"], met({"a": 1}))
+    (pair,) = robot_order(robots, placed, AnalysisSettings()).pairs
     assert "their ranges of adversarialness" in pair.why
     assert not pair.headlines
 
 
 def test_one_robot_has_no_order():
-    assert robot_order({"a": robot()}, [], AnalysisSettings()) is None
+    assert robot_order({"a": robot()}, place(robot(), met({"a": 1})), AnalysisSettings()) is None
+
+
+def test_where_nobody_played_there_is_no_order():
+    assert robot_order({"a": robot("a"), "b": robot("b")}, [], AnalysisSettings()) is None
 
 
 def test_the_same_study_gives_the_same_p():

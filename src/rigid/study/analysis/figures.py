@@ -31,10 +31,10 @@ Draw = Callable[[Any], None]
 def drawings(analysis: Analysis) -> list[tuple[str, Draw]]:
     """Every figure: the name of its file, and what draws it on axes."""
     found: list[tuple[str, Draw]] = []
-    for key, robot in analysis.robots.items():
+    for key in analysis.met:
         placed = [p for p in analysis.placed if p.player.robot == key]
         claims = {c.device: c.claim for c in analysis.controls if c.robot == key}
-        found.append((f"people-{key}", people_figure(robot, placed, claims)))
+        found.append((f"people-{key}", people_figure(analysis.robots[key], placed, claims)))
     for judged in analysis.judged:
         draw = (
             _preference(judged, analysis)
@@ -144,9 +144,11 @@ def _preference(judged: Judged, analysis: Analysis) -> Draw:
     for label, found in (("everybody", judged.everybody), ("attentive", judged.attentive)):
         if isinstance(found, ChoiceFindings):
             rows.append((label, found))
+    rows.reverse()  # From below.
     margin = analysis.settings.margin
 
     def draw(axis: Any) -> None:
+        axis.set_axisbelow(True)
         axis.axvspan(0.5 - margin, 0.5 + margin, color=COLOURS[2], alpha=0.15, linewidth=0,
                      label=f"equivalence margin, ± {margin:g}")  # fmt: skip
         axis.axvline(0.5, color=COLOURS[2], linewidth=1)

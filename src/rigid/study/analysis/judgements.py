@@ -135,8 +135,7 @@ def _choices(answers: Sequence[Answer], settings: AnalysisSettings) -> ChoiceFin
         by_rater=tuple(float(second[rater == one].mean()) for one in np.unique(rater)),
         left=_estimate(clustered_mean(left, rater, pair), level, (0.0, 1.0)),
         agreement=agreement(
-            second, rater, pair, pair, scale="nominal", resamples=settings.resamples,
-            rng=np.random.default_rng(settings.seed), confidence=level,
+            second, rater, pair, pair, scale="nominal", confidence=level
         ),
     )  # fmt: skip
 
@@ -164,7 +163,6 @@ def _scores(question: Asked, scores: Scores, settings: AnalysisSettings) -> Scor
         ),
         agreement=agreement(
             scores.score, scores.rater, scores.member, scores.pair, scale="ordinal",
-            resamples=settings.resamples, rng=np.random.default_rng(settings.seed),
             confidence=level,
         ),
         scores=scores,

@@ -48,15 +48,14 @@ def study_page(analysis: Analysis) -> str:
     """The page as text."""
     drawn = {name: inline(draw) for name, draw in drawings(analysis)}
     figures = list(drawn.values())
-    robots, judged = figures[: len(analysis.robots)], figures[len(analysis.robots) :]
+    robots, judged = figures[: len(analysis.met)], figures[len(analysis.met) :]
     return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
         title=safe(f"{analysis.title} · RIGID"),
         facts=safe(_facts(analysis)),
         stamps="".join(f'<p class="stamp">{safe(stamp)}</p>' for stamp in _stamps(analysis)),
         findings=_list(sentences(analysis)),
         people="".join(
-            _robot(key, figure, analysis)
-            for key, figure in zip(analysis.robots, robots, strict=True)
+            _robot(key, figure, analysis) for key, figure in zip(analysis.met, robots, strict=True)
         ),
         order=_order(analysis.order),
         judged="".join(

@@ -71,11 +71,11 @@ class RobotOrder:
 def robot_order(
     robots: Mapping[str, MeasuredRobot], placed: Sequence[Placed], settings: AnalysisSettings
 ) -> RobotOrder | None:
-    """Compares every two robots; None below two. People alone, whatever their device.
+    """Compares every two robots; None below two, or where nobody played. People alone.
 
     A person meets every robot with the same device, so that devices cancel.
     """
-    if len(robots) < 2:
+    if len(robots) < 2 or not placed:
         return None
     failures = _by_person(placed, failed=True)
     harm = _by_person(placed, failed=False)

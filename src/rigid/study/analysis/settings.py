@@ -27,8 +27,6 @@ class AnalysisSettings:
     the referee sees there is then the device. Ours."""
     episode_quantile: float = 0.95
     """Quantile of an adversary's episodes that a person's episode is held against. Ours."""
-    resamples: int = 1000
-    """Of the bootstrap of agreement."""
     permutations: int = 20_000
     """Draws where the permutations are too many to go through all of them."""
     chains: int = 4

@@ -34,13 +34,18 @@ class Analysis:
     judged: tuple[Judged, ...]
     order: RobotOrder | None
     people: Mapping[str, int]
-    """How many persons of each role took part."""
+    """How many persons of each role consented."""
     scripted: int
     """How many participants were scripts."""
     withdrawn: int
     registered: bool | None
     """Whether the analysis is the one that was registered; None where none was."""
     settings: AnalysisSettings
+
+    @property
+    def met(self) -> tuple[str, ...]:
+        """Robots that were measured and that somebody met, scripts included."""
+        return tuple(k for k in self.robots if any(p.player.robot == k for p in self.placed))
 
 
 def analyse(
@@ -71,7 +76,8 @@ def analyse(
         placed += found
         controls += control.values()
         counts += counts_of(key, found, control)
-    roles = [p.role for p in study.participants.values() if p.kind == "person"]
+    took_part = [p for p in study.participants.values() if p.status != "invited"]
+    roles = [p.role for p in took_part if p.kind == "person"]
     return Analysis(
         title=study.plan.title, task=study.plan.task, robots=robots,
         unmeasured=tuple(key for key in study.plan.robots if key not in robots),
@@ -79,7 +85,7 @@ def analyse(
         judged=_judged(study, questionnaires, settings, say),
         order=robot_order(robots, placed, settings),
         people={role: roles.count(role) for role in dict.fromkeys(roles)},
-        scripted=sum(p.kind == "scripted" for p in study.participants.values()),
+        scripted=sum(p.kind == "scripted" for p in took_part),
         withdrawn=study.withdrawn, settings=settings, registered=_registered(study, settings),
     )  # fmt: skip
 

@@ -48,7 +48,7 @@ def sentences(analysis: Analysis) -> list[str]:
     lines = [_above(count) for count in analysis.counts if count.claim]
     lines += [_no_claim(control) for control in analysis.controls if not control.claim]
     for judged in analysis.judged:
-        lines += judged_lines(judged)
+        lines += [f"{title_of(judged)}: {line}" for line in judged_lines(judged)]
     return lines + order_lines(analysis.order)
 
 
@@ -56,14 +56,23 @@ def notes(analysis: Analysis) -> list[str]:
     """How to read them, and what was not as planned."""
     floor = analysis.settings.benign_floor
     quantile = analysis.settings.episode_quantile
-    lines = list(_READING)
-    lines.append(
-        f"single episodes are held against the {100 * quantile:g} % quantiles of the adversaries' "
-        "episodes, not against means"
-    )
-    lines.append(
-        f"devices are kept apart; where benign players score below {floor:g}, nothing is claimed"
-    )
+    lines: list[str] = []
+    if analysis.placed:
+        lines += _READING
+        lines.append(
+            f"single episodes are held against the {100 * quantile:g} % quantiles of the "
+            "adversaries' episodes, not against means"
+        )
+        lines.append(
+            f"devices are kept apart; where benign players score below {floor:g}, nothing is "
+            "claimed"
+        )
+    if any(placed.on_device is not None for placed in analysis.placed):
+        lines.append(
+            "'x against practice' puts benign play on the same kind of device in the place of "
+            "canonical data: what both owe to the device then counts for nothing, and a person is "
+            "held against adversaries as natural as the larger of both bounds"
+        )
     if analysis.scripted:
         lines.append(f"{analysis.scripted} scripted participant(s): shown as such, counted nowhere")
     if any(judged.of == "scripted" for judged in analysis.judged):
@@ -77,23 +86,24 @@ def notes(analysis: Analysis) -> list[str]:
     return lines
 
 
+def title_of(judged: Judged) -> str:
+    """What a questionnaire is called."""
+    by = ", answered by scripts" if judged.of == "scripted" else ""
+    return f"{QUESTIONS[judged.question]} ({judged.pairs}){by}"
+
+
 def judged_lines(judged: Judged) -> list[str]:
     """What one questionnaire found."""
-    title = f"{QUESTIONS[judged.question]} ({judged.pairs})"
-    if judged.of == "scripted":
-        title = f"{title}, answered by scripts"
-    lines = [f"{title}: {line}" for line in _findings(judged.everybody, judged.question)]
+    lines = _findings(judged.everybody, judged.question)
     failed = [check.participant for check in judged.checks if check.failed]
     if failed:
-        left = "nobody is left" if judged.attentive is None else "without them:"
-        lines.append(f"{title}: {', '.join(failed)} failed an attention check; {left}")
-        if judged.attentive is not None:
-            lines += [
-                f"{title}, attentive: {line}"
-                for line in _findings(judged.attentive, judged.question)
-            ]
+        left = "; nobody else answered" if judged.attentive is None else ""
+        lines.append(f"{', '.join(failed)} failed an attention check{left}")
     elif judged.checks:
-        lines.append(f"{title}: all {len(judged.checks)} raters passed every attention check")
+        lines.append(f"all {len(judged.checks)} raters passed every attention check")
+    if judged.attentive is not None:
+        without = _findings(judged.attentive, judged.question)
+        lines += [f"without them: {line}" for line in without]
     return lines
 
 
