@@ -17,7 +17,7 @@ test: .venv/.dev web/node_modules/.package-lock.json ## the fast suite, Python a
 	@command -v chromium >/dev/null || { $(call apt,chromium); }
 	@$(BIN)/python -c 'import sys, rigid.report.canvas as c; sys.exit(c.backend() is None)' || \
 		{ $(call apt,libegl1 libgl1-mesa-dri libopengl0); }
-	$(BIN)/pytest --numprocesses auto --dist loadfile
+	$(BIN)/pytest --numprocesses auto --dist loadfile --timeout 600 --timeout-method thread
 	$(npm) test
 
 check: lint test docs ## what continuous integration runs: lint, format, types, tests, documentation

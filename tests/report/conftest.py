@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import contextlib
 import importlib
-import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Page
 
 from rigid.report import build_report
+from tests.browser import browser
+
+__all__ = ["browser"]
 
 HERE = Path(__file__).parent
-FLAGS = [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader",
-]  # fmt: skip
 
 
 @pytest.fixture(scope="session")
@@ -58,18 +56,6 @@ def struck(struck_task):
     from tests.report.struck import struck
 
     return struck(struck_task)
-
-
-# One browser per module: while it runs, its event loop keeps asyncio from starting another here.
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    executable = shutil.which("chromium")
-    if executable is None:
-        pytest.skip("chromium is not installed")
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=executable, args=FLAGS)
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="module")

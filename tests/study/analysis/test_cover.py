@@ -38,15 +38,25 @@ def test_at_the_edge_of_the_margin_the_test_says_equivalent_in_5_percent_at_most
     assert np.mean(wrong) <= 0.065
 
 
+FEW_AND_FAR_APART = pytest.mark.xfail(
+    strict=True, reason="five raters of strong taste: 92.7 % of 1,500; docs/study.md says so"
+)
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("spread", [0.0, 0.3, 0.7])
-@pytest.mark.parametrize(("raters", "pairs"), [(15, 30), (5, 30)])
-def test_the_interval_of_a_preference_covers_92_percent_at_least(raters, pairs, spread):
+@pytest.mark.parametrize(
+    ("raters", "pairs", "spread"),
+    [
+        (15, 30, 0.0), (15, 30, 0.3), (15, 30, 0.7), (5, 30, 0.0), (5, 30, 0.3),
+        pytest.param(5, 30, 0.7, marks=FEW_AND_FAR_APART),
+    ],
+)  # fmt: skip
+def test_the_interval_of_a_preference_covers_93_percent_at_least(raters, pairs, spread):
     covered = []
     for one in studies(0.6, raters, pairs, spread, seed=2):
         low, high = clustered_mean(*one).interval(0.95, (0.0, 1.0))
         covered.append(low <= 0.6 <= high)
-    assert np.mean(covered) >= 0.92  # Five raters of strong taste: 0.927.
+    assert np.mean(covered) >= 0.93
 
 
 @pytest.mark.slow

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import jax
 import numpy as np
 import pytest
+from scipy.special import expit
 
 from rigid.study.analysis.judged import scores_of
-from rigid.study.analysis.ordinal import _complaint, fit_ordinal
+from rigid.study.analysis.ordinal import _complaint, fit_ordinal, log_share
 from tests.study.analysis.scripted_answers import answer, danger_scores, made_pairs
 
 GROUPS = ("rater", "pair", "episode")
@@ -27,6 +29,19 @@ def test_a_known_slope_lies_in_its_interval():
     assert other.interval.low < 0.0 < other.interval.high
     assert found.r_hat <= 1.01
     assert found.ess >= 400
+
+
+@pytest.mark.parametrize("predictor", [-9.0, -1.0, 0.0, 2.5, 9.0])
+def test_the_probability_of_a_score_is_that_of_the_cumulative_logit_model(predictor):
+    cutpoints = np.array([-6.0, -2.0, 0.5, 0.6, 4.0])
+    below = np.array([0.0, *expit(cutpoints - predictor), 1.0])
+    found = np.exp(log_share(np.arange(6), cutpoints, np.full(6, predictor)))
+    np.testing.assert_allclose(found, np.diff(below), rtol=1e-4, atol=1e-9)
+
+
+def test_a_score_that_is_next_to_impossible_still_pulls_on_the_model():
+    slope = jax.grad(lambda at: log_share(np.array([1]), np.array([-30.0, -29.0]), at).sum())
+    assert slope(np.full(1, 5.0, np.float32)) == pytest.approx(-1.0, abs=0.01)
 
 
 def planted(apart):
@@ -52,7 +67,7 @@ def test_chains_that_did_not_meet_are_tried_longer_and_then_give_no_slope(monkey
     assert "the chains have not met" in found.refused
     assert not found.slopes
     assert found.r_hat > 1.5
-    assert tries == [(500, 0.9), (2000, 0.99)]
+    assert tries == [(500, 0.9), (1500, 0.99)]
 
 
 def test_chains_that_met_are_summed_up(monkeypatch):

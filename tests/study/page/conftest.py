@@ -6,7 +6,6 @@ import asyncio
 import contextlib
 import json
 import re
-import shutil
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Page
 
 from rigid.report.build import embed_json
 from rigid.study.judging import Clips, prepare_clips
@@ -37,10 +36,11 @@ from rigid.study.service.running import listen, server_of
 from rigid.study.store import Store
 from rigid.tasks.itch_scratching.parameters import ItchScratchingParameters
 from rigid.tasks.itch_scratching.task import ItchScratching
-from tests.report.conftest import FLAGS
+from tests.browser import browser
 from tests.study.judging import sources
 from tests.toys import untrained
 
+__all__ = ["browser"]
 STEPS, HELD = 12, 4
 TASK = ItchScratching(ItchScratchingParameters(horizon=STEPS))
 """The real task at its real rate, in episodes of 1.2 s."""
@@ -181,18 +181,6 @@ def note(page: Page, text: str | bytes) -> None:
     said = json.loads(text)
     if said["type"] == "target":
         page.targets.append(said["position"])
-
-
-# One browser per module: while it runs, its event loop keeps asyncio from starting another here.
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    executable = shutil.which("chromium")
-    if executable is None:
-        pytest.skip("chromium is not installed")
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=executable, args=FLAGS)
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="module")

@@ -31,8 +31,8 @@ class AnalysisSettings:
     """Draws where the permutations are too many to go through all of them."""
     chains: int = 4
     """Markov chains of a mixed model; R-hat needs several."""
-    samples: int = 1000
-    """Of each chain, after as many to warm up; four times as many where that is not enough."""
+    samples: int = 1500
+    """Of each chain, after as many to warm up; three times as many where that is not enough."""
     seed: int = 0
 
     def __post_init__(self) -> None:
