@@ -155,7 +155,7 @@ def test_help_loads_no_numerics():
         "finally: print({'jax', 'mujoco', 'scipy', 'numpy'} & set(sys.modules), file=sys.stderr)"
     )
     done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=120
     )
     assert done.stderr == "set()\n"
 
@@ -198,7 +198,7 @@ def test_bad_input_exits_with_2_and_one_message(exit_of):
 
 
 def test_an_interrupted_command_exits_with_130(exit_of):
-    message = "\nrigid: interrupted; the same command goes on\n"
+    message = "\nrigid: interrupted; the same command begins anew\n"
     assert exit_of(KeyboardInterrupt()) == (130, message)
 
 
@@ -216,7 +216,7 @@ def test_an_interrupted_process_ends_before_libraries_can_crash_at_its_exit():
         "cli.main()"
     )
     done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=120
     )
     assert (done.returncode, done.stdout, done.stderr) == (130, "shown", "")
 

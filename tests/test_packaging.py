@@ -101,7 +101,7 @@ def wheel(tmp_path_factory):
     """The wheel of this checkout, built with the tools of this environment."""
     folder = tmp_path_factory.mktemp("dist")
     command = [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "-d", str(folder)]
-    subprocess.run(command, cwd=ROOT, check=True)
+    subprocess.run(command, cwd=ROOT, check=True, timeout=300)
     return next(folder.glob("*.whl"))
 
 
@@ -195,6 +195,7 @@ def test_no_file_of_the_project_names_a_package_registry():
         check=False,
         capture_output=True,
         text=True,
+        timeout=60,
     )
     if tracked.returncode:
         pytest.skip("no git checkout: which files belong to the project is not known")

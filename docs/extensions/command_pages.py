@@ -16,7 +16,8 @@ _WIDE = "1000"
 """Columns of the terminal that the help is printed for: no text of it is broken into lines."""
 _EXIT_CODES = (
     "Exit codes: 0 done; 1 a check failed (`verify`, `referee --check`, `doctor`); 2 bad input, in "
-    "one message; 3 `rigid gate` failed; 130 interrupted: the same command goes on."
+    "one message; 3 `rigid gate` failed; 130 interrupted, and told "
+    "whether the same command goes on or begins anew."
 )
 _BOXES = {"positional arguments": "arguments", "options": "options"}
 

@@ -91,7 +91,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         print("\n".join(["rigid: " + lines[0], *lines[1:]]), file=sys.stderr)
         return error.exit_code
     except KeyboardInterrupt as interrupt:
-        how = str(interrupt) or "the same command goes on"
+        how = str(interrupt) or "the same command begins anew"
         print(f"\nrigid: interrupted; {how}", file=sys.stderr)
         return INTERRUPTED
 

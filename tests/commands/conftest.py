@@ -38,10 +38,11 @@ def single_run(base):
 def toys(base, monkeypatch):
     """Installs the toy task and the preset `tiny`; returns the folder of the toy pair."""
     from rigid import presets
-    from tests.compute.tiny import TINY, install_toy
+    from tests.compute.tiny import TINY, hasten_referees, install_toy
 
     monkeypatch.syspath_prepend(install_toy(base))
     monkeypatch.setitem(presets.PRESETS, "tiny", TINY)
+    hasten_referees(monkeypatch)
     return base / "pair"
 
 

@@ -75,6 +75,7 @@ def test_import_exits_with_2_only_when_no_episode_is_left(rigid, toys, tmp_path)
         (["--from", "FILE", "--rate=-1"], "--rate is -1, but must be samples a second"),
         (["--from", "FILE", "--met", "jaco"], "but with robots without a name: leave --met out"),
         (["--from", "FILE", "--map", "no.json"], "no.json does not exist: docs/canonical-data.md"),
+        (["--from", "FILE", "--map", "FILE"], "is no JSON (Expecting value"),
     ],
 )  # fmt: skip
 def test_import_refuses_bad_input(rigid, toys, csv_file, tmp_path, options, message):
@@ -83,6 +84,67 @@ def test_import_refuses_bad_input(rigid, toys, csv_file, tmp_path, options, mess
     code, _, err = rigid("data", "import", *options, *TOY, "--out", tmp_path / "x.npz")
     assert code == 2
     assert message in err
+
+
+@pytest.mark.parametrize("name", ["people.npz", "people.yaml"])
+def test_a_map_that_is_no_text_is_refused_in_words(rigid, toys, csv_file, recorded, name):
+    del toys
+    binary = recorded.rename(recorded.with_name(name))
+    options = ("--map", binary, "--out", binary.with_name("x.npz"))
+    code, _, err = rigid("data", "import", "--from", csv_file, *options, *TOY)
+    assert code == 2
+    assert (
+        f"{binary} is no text, but --map takes a JSON or YAML file: docs/canonical-data.md" in err
+    )
+    assert "codec" not in err
+
+
+def test_a_map_may_be_yaml(rigid, toys, csv_file, tmp_path):
+    del toys
+    (tmp_path / "map.yaml").write_text("time: {from: time, unit: s}\n")
+    (tmp_path / "bad.yml").write_text("time: [\n")
+    out = ("--out", tmp_path / "x.npz")
+    command = ("data", "import", "--from", csv_file, *TOY, *out)
+    assert rigid(*command, "--map", tmp_path / "map.yaml")[0] == 0
+    code, _, err = rigid(*command, "--overwrite", "--map", tmp_path / "bad.yml")
+    assert code == 2
+    assert "bad.yml is no YAML (while parsing" in err
+
+
+def test_import_leaves_a_file_that_is_there_unless_it_is_given_up(rigid, toys, csv_file, recorded):
+    del toys
+    before = recorded.read_bytes()
+    command = ("data", "import", "--from", csv_file, *TOY, "--out", recorded)
+    code, _, err = rigid(*command)
+    assert code == 2
+    assert f"{recorded} exists already, and would be lost with what people consented to: " in err
+    assert recorded.read_bytes() == before
+    assert rigid(*command, "--overwrite")[0] == 0
+    assert load_episodes(recorded, task=None).source == "recorded"
+
+
+def test_a_recording_of_policies_replaces_one_of_policies_alone(
+    rigid, toy_options, csv_file, recorded, tmp_path
+):
+    people = tmp_path / "people.npz"
+    toy = toy_options[:2]
+    assert rigid("data", "import", "--from", csv_file, *toy, "--out", people)[0] == 0
+    assert rigid("record", *toy_options, "--episodes", 2, "--out", recorded)[0] == 0
+    for path, held in ((people, "episodes of people"), (csv_file, "something else than episodes")):
+        before = path.read_bytes()
+        code, _, err = rigid("record", *toy_options, "--episodes", 2, "--out", path)
+        assert code == 2
+        assert f"{path} holds {held}: choose another file with --out" in err
+        assert path.read_bytes() == before
+
+
+def test_export_of_a_table_leaves_the_tables_that_are_there(rigid, recorded, csv_file):
+    command = ("data", "export", recorded, "--to", "csv", "--out", csv_file)
+    before = csv_file.read_bytes()
+    code, _, err = rigid(*command)
+    assert code == 2
+    assert f"{csv_file} exists already: choose a new file with --out" in err
+    assert csv_file.read_bytes() == before
 
 
 def test_import_cannot_play_again_what_nobody_knows_the_start_of(rigid, toys, csv_file, tmp_path):

@@ -101,6 +101,11 @@ REFUSED = {
     "--seed goes without a run directory": ["--video", "a.webp", "--seed", "4"],
     "--onnx goes without a run directory": ["--onnx", "a.onnx"],
     "--trust goes without a run directory": ["--video", "a.webp", "--trust"],
+    "--size is for --video FILE": ["--keypoints", "a.pdf", "--size", "90x90"],
+    "--fps is for --video FILE": ["--keypoints", "a.pdf", "--fps", "9"],
+    "--speed is for --video FILE": ["--keypoints", "a.pdf", "--speed", "2"],
+    "--point is for --video FILE": ["--keypoints", "a.pdf", "--point", "s0-r1-l0"],
+    "--side-by-side is for --video FILE": ["--keypoints", "a.pdf", "--side-by-side"],
     "--point 's9' is none of this run's": ["--video", "a.webp", "--point", "s9"],
 }
 

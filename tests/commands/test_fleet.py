@@ -85,7 +85,7 @@ def test_a_bad_value_exits_with_2_and_measures_nothing(
 def test_a_robot_that_does_not_load_stops_the_fleet_before_any_work(compare, toys, tmp_path):
     code, _, err = compare("--robots", toys / "robot", "nowhere")
     assert code == 2
-    assert "robot 'nowhere' is no directory" in err
+    assert err.startswith("rigid: robot 'nowhere' is no directory")
     assert not (tmp_path / "fleet").exists()
 
 

@@ -72,7 +72,7 @@ def gate(tmp_path):
                 **os.environ, **WORKFLOW["env"], "NATURALNESS": "0", **env,
                 "PATH": f"{tools}:{os.environ['PATH']}", "GITHUB_STEP_SUMMARY": str(folder / "s"),
             },
-            capture_output=True, text=True, check=False,
+            capture_output=True, text=True, check=False, timeout=120,
         )  # fmt: skip
         assert (folder / "s").read_text() == done.stdout
         return done.returncode

@@ -41,7 +41,9 @@ def test_json_is_all_that_stands_on_standard_output(frontier, tmp_path):
     assert json.loads(out) == load_frontier(tmp_path / "run").data
     assert (tmp_path / "run" / "report.html").exists()
     steps = 2 * TINY.iterations * TINY.episodes * FilmedReach().horizon
-    assert f"{steps:,} training steps; about " in err
+    told = " ".join(err.split())  # A long name wraps.
+    assert told.startswith("preparing ")
+    assert f"(preset tiny) {steps:,} training steps; about " in told
 
 
 def test_a_finished_directory_says_so_and_shows_its_headline(frontier, small_run):
@@ -116,6 +118,7 @@ BAD_INPUT = {
 def test_bad_input_exits_with_2_and_writes_nothing(frontier, tmp_path, options, message):
     code, out, err = frontier(*options)
     assert (code, out) == (2, "")
+    assert err.startswith("rigid: ")  # Nobody said that anything begins.
     assert message in err
     assert "Traceback" not in err
     assert not (tmp_path / "run").exists()

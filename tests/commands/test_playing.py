@@ -54,6 +54,27 @@ def test_a_file_that_cannot_be_written_is_refused_before_any_work(rigid, monkeyp
     assert err.endswith(f"choose another place with {options[0]}\n")
 
 
+def test_play_that_takes_its_time_shows_a_bar_and_ends_in_the_same_numbers(
+    rigid, toy_options, monkeypatch
+):
+    from rigid.commands import progress
+
+    command = ("evaluate", *toy_options, "--episodes", 5, "--seed", 2, "--json")
+    _, quick, _ = rigid(*command)
+    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    code, slow, err = rigid(*command)
+    assert (code, slow) == (0, quick)
+    assert "playing 5 episodes: 100 %" in err
+
+
+def test_evaluate_calls_forces_unknown_where_a_task_has_none(rigid):
+    code, out, _ = rigid("evaluate", "--task", "analytic/hand-tracking", "--episodes", 2,
+                         "--robot", "builtin:tracker")  # fmt: skip
+    lines = dict(line.split(maxsplit=1) for line in out.splitlines())
+    assert code == 0
+    assert (lines["peak_force"], lines["impulse"]) == ("unknown", "unknown")
+
+
 def test_evaluate_prints_what_python_gives(rigid, toys, toy_options):
     code, out, err = rigid("evaluate", *toy_options, "--episodes", 5, "--seed", 2, "--json")
     assert (code, err) == (0, "")

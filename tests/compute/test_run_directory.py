@@ -45,8 +45,9 @@ def test_two_processes_do_not_measure_in_one_directory(tmp_path):
     with alone_in(run):
         check_place(run)  # The lock makes it no foreign directory.
         other = subprocess.run(
-            [sys.executable, "-c", ENTER, str(run)], capture_output=True, text=True, check=False
-        )
+            [sys.executable, "-c", ENTER, str(run)],
+            capture_output=True, text=True, check=False, timeout=120,
+        )  # fmt: skip
         assert other.stdout == (
             f"another process is measuring in {run}: wait for it, or choose another directory "
             "with --out\n"
@@ -58,7 +59,7 @@ def test_two_processes_do_not_measure_in_one_directory(tmp_path):
 
 def test_a_lock_ends_with_its_process(tmp_path):
     code = ENTER.replace("pass", "import os; os._exit(9)")
-    subprocess.run([sys.executable, "-c", code, str(tmp_path)], check=False)
+    subprocess.run([sys.executable, "-c", code, str(tmp_path)], check=False, timeout=120)
     assert (tmp_path / ".lock").exists()
     with alone_in(tmp_path):
         pass

@@ -33,7 +33,7 @@ def test_the_peak_of_a_process_is_not_that_of_the_one_that_started_it():
     held = np.ones(40_000_000)  # 305 MB, so that this process is larger than the other one.
     script = "from rigid.compute.memory import peak_memory; print(peak_memory())"
     done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=120
     )
     assert held.nbytes / 2**20 < peak_memory()
     assert float(done.stdout) < held.nbytes / 2**20

@@ -9,12 +9,15 @@ import subprocess
 import sys
 import threading
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import rigid
 from rigid.frontier.result import Frontier, load_frontier
+from rigid.naturalness.referee import RefereeSettings
 from rigid.policies.native import save_policy
 from rigid.presets import Preset
 from tests.toys import ToyReach, ToyWorld, untrained
@@ -66,7 +69,20 @@ def measure_tiny(base: Path, out: Path, *, task=None, robot=None, **options) -> 
     """Measures the toy robot that lies below `base`, or another one."""
     settings = {"preset": TINY, "human": str(base / "pair" / "human"), **options}
     robot = robot or str(base / "pair" / "robot")
-    return rigid.measure(task or FilmedReach(), robot, out=out, **settings)
+    with pytest.MonkeyPatch.context() as patch:
+        hasten_referees(patch)
+        return rigid.measure(task or FilmedReach(), robot, out=out, **settings)
+
+
+def hasten_referees(
+    patch: pytest.MonkeyPatch, module: str = "rigid.compute.preparation", **steps: int
+) -> None:
+    """Has the referees of a module fitted in a few steps: most of the time of a toy is theirs.
+
+    Those of a measurement are of `preparation`, and travel with groups into other processes.
+    """
+    hasty = partial(RefereeSettings, **{"block": 50, "blocks": 3, **steps})
+    patch.setattr(f"{module}.RefereeSettings", hasty)
 
 
 def measured_once(base: Path, name: str, **options) -> Frontier:

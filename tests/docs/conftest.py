@@ -9,6 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from rigid.policies.gaussian import GaussianPolicy
+from rigid.policies.native import load_native, save_policy
+
 ROOT = Path(__file__).parents[2]
 BUNDLED = ROOT / "src" / "rigid" / "bundled" / "itch-scratching"
 sys.path.insert(0, str(ROOT / "docs"))  # As Sphinx has it, for `extensions`.
@@ -38,8 +41,18 @@ def small_run(tmp_path_factory):
     """A measurement of the bundled robot, of the size of `tests/docs/small.py`."""
     out = tmp_path_factory.mktemp("docs") / "run"
     words = ["frontier", "--robot", "builtin:vanilla", "--out", str(out)]
-    subprocess.run([sys.executable, "-m", "tests.docs.small", *words], cwd=ROOT, check=True)
+    command = [sys.executable, "-m", "tests.docs.small", *words]
+    subprocess.run(command, cwd=ROOT, check=True, timeout=900)
     return out
+
+
+def store_human(place, number):
+    """The bundled human with a noise of its own: no human may be named twice."""
+    policy, card = load_native(BUNDLED / "synthetic-human")
+    parameters = policy.parameters
+    noise = parameters.log_std - 0.01 * number
+    human = GaussianPolicy(parameters._replace(log_std=noise), memory=policy.memory)
+    save_policy(human, place, agent="human", task=card.task, provenance=card.provenance)
 
 
 @pytest.fixture
@@ -49,8 +62,8 @@ def stage(request):
     def prepare(name, place):
         for robot in ROBOTS.get(name, ()):
             shutil.copytree(BUNDLED / "vanilla", place / robot)
-        for human in HUMANS.get(name, ()):
-            shutil.copytree(BUNDLED / "synthetic-human", place / human)
+        for number, human in enumerate(HUMANS.get(name, ())):
+            store_human(place / human, number)
         for run in RUNS.get(name, ()):
             shutil.copytree(request.getfixturevalue("small_run"), place / "runs" / run)
         for file, source in FILES.get(name, {}).items():

@@ -13,8 +13,8 @@ from dataclasses import replace
 from rigid import presets
 from rigid.cli import main
 
-CUT = {"--iterations": "1", "--population-iterations": "1", "--episodes": "5"}
-"""Options whose values are replaced."""
+CUT = {"--iterations": "1", "--population-iterations": "1", "--episodes": "12"}
+"""Options whose values are replaced; 12 episodes are the fewest that a human is cloned from."""
 ADDED = {
     "train co-optimize": ("--iterations", "1"),
     "train vanilla": ("--iterations", "1", "--episodes", "5"),

@@ -29,6 +29,7 @@ NOT_SMALL = {
 """Commands of running blocks that are only parsed, and why."""
 
 NOT_RUN = {
+    "README.md": 1,
     "docs/exec.md": 1,
     "docs/gallery.md": 1,
     "docs/new-domain.md": 3,
@@ -105,6 +106,10 @@ for _page in pages():
         PYTHON_PAGES.append(_page)
 
 
+BLOCK_SECONDS = 900.0
+"""Until a block counts as hung; a shared machine may be slow."""
+
+
 def run_page(page, place):
     """Runs the blocks of a page, in order, in `place`."""
     tools = place / "bin"
@@ -132,8 +137,9 @@ def run_page(page, place):
         else:
             words = ["bash", "-c", script_of(block)]
         done = subprocess.run(
-            words, cwd=place, env=environment, capture_output=True, text=True, check=False
-        )
+            words, cwd=place, env=environment, capture_output=True, text=True, check=False,
+            timeout=BLOCK_SECONDS,
+        )  # fmt: skip
         assert done.returncode == 0, (
             f"{named(block)} failed; mend it, or write <!-- not run: REASON --> above it and count "
             f"it in NOT_RUN\n{block.text}\n{done.stdout}\n{done.stderr}"

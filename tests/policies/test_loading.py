@@ -99,6 +99,18 @@ def test_the_passive_human_fits_every_task_and_does_nothing():
             "vanilla", "robot", "is no directory; did you mean 'builtin:vanilla'", id="no-prefix"
         ),
         pytest.param(
+            "arm.zip",
+            "robot",
+            "'arm.zip' is no directory; did you mean 'sb3:arm.zip', with --trust",
+            id="no-kind-of-zip",
+        ),
+        pytest.param(
+            "Arm.PT",
+            "human",
+            "'Arm.PT' is no directory; did you mean 'torchscript:Arm.PT', with --trust",
+            id="no-kind-of-pt",
+        ),
+        pytest.param(
             "runs/v1.2",
             "robot",
             "'runs/v1.2' is no directory: give builtin:NAME, a native policy directory, "

@@ -20,7 +20,7 @@ from rigid.robots.robust_gt import (
 )
 from rigid.robots.rounds import seeds_not_used, train_in_rounds
 from rigid.tasks import registry
-from tests.compute.tiny import TINY, FilmedReach
+from tests.compute.tiny import TINY, FilmedReach, hasten_referees
 from tests.robots.quick import VANILLA, Seen, names, same
 from tests.toys import untrained
 
@@ -34,6 +34,7 @@ def run(single_run, tmp_path, monkeypatch):
     """A copy of a toy measurement, whose task counts as RIGID's own."""
     recipe = registry._Recipe(FilmedReach, None)
     monkeypatch.setitem(registry._BUILTIN, "toy-reach", lambda: recipe)
+    hasten_referees(monkeypatch)
     return shutil.copytree(single_run.directory, tmp_path / "run")
 
 

@@ -114,8 +114,9 @@ class TestFile:
     def test_it_ends_by_itself_when_rigid_is_gone(self, tmp_path):
         command = Command(write_program(tmp_path, DOUBLER), tmp_path)
         found = subprocess.run(
-            command.words, input=b"", capture_output=True, check=False, env=for_programs()
-        )
+            command.words, input=b"", capture_output=True, check=False, env=for_programs(),
+            timeout=120,
+        )  # fmt: skip
         assert (found.returncode, found.stdout) == (
             0, b"this goes to whoever looks at standard error\n",
         )  # fmt: skip

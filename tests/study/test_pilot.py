@@ -11,14 +11,18 @@ import pytest
 from rigid.cli import run
 from rigid.commands.study_piloting import table
 from rigid.errors import UserError
+from rigid.study.judging.answers import _passed
+from rigid.study.judging.questions import SCALES, SIDES
+from rigid.study.judging.trials import Trial
 from rigid.study.pilot.checking import check_participant, plays_again
 from rigid.study.pilot.run import PilotOrder, run_pilot
-from rigid.study.pilot.scripted import random_answers
+from rigid.study.pilot.scripted import random_answers, reference_side
 from rigid.study.pilot.server import pilot_server
 from rigid.study.plan import PlayStage, Role, load_plan
 from rigid.study.players import open_players
 from rigid.study.service.messages import Responses, read_message
 from rigid.study.store import Store
+from rigid.study.store.schema import FILE
 
 STUDY = """\
 title: A tiny study
@@ -116,12 +120,12 @@ def test_the_table_has_a_line_for_each(pilot):
     assert line.split()[:5] == [pilot[0][0].participant.code, "novice", "follow", "1", "1"]
 
 
-def answers(question, shown):
-    return random_answers(question, shown, np.random.default_rng(0))
+def answers(question, itself):
+    return random_answers(question, itself, np.random.default_rng(0))
 
 
 def test_a_scripted_rater_answers_every_question_within_its_scale():
-    said = answers("danger", {"left": {"a": 1}, "right": {"a": 2}})
+    said = answers("danger", None)
     assert set(said) == {"goal-left", "goal-right", "danger-left", "danger-right"}
     assert all(0 <= value <= 7 for value in said.values())
 
@@ -133,17 +137,49 @@ def test_whole_numbers_of_a_scale_stay_whole_on_their_way():
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_a_scripted_rater_sees_which_motion_is_the_reference_itself(side):
-    shown = {"left": 1, "right": 2, "reference": {"left": 1, "right": 2}[side]}
-    assert answers("correspondence", shown) == {"correspondence": side}
-    naturalness = answers("naturalness", shown)
-    assert naturalness[f"naturalness-{side}"] == 7 > min(naturalness.values())
+@pytest.mark.parametrize("question", ["correspondence", "danger", "naturalness"])
+def test_a_scripted_rater_passes_every_attention_check(question, side, judging):
+    check = judging(question, reference_on=side)
+    given = answers(question, reference_side(check))
+    values = {
+        (scale, check.member(at)): given[f"{scale}-{at}"]
+        for scale in SCALES.get(question, ())
+        for at in SIDES
+    }
+    assert _passed(check, values or {("correspondence", "both"): float(given[question] == side)})
+
+
+@pytest.fixture
+def judging():
+    """Makes an attention check of a question."""
+
+    def check(question, *, reference_on):
+        left = "second" if reference_on == "left" else "first"
+        return Trial(
+            id="t03", position=3, of=8, question=question, pair=None, shown_left=left,
+            clips={}, keys={},
+        )  # fmt: skip
+
+    return check
 
 
 def test_a_server_that_cannot_start_says_why(tmp_path):
     serving = pilot_server("builtin:paper", tmp_path / "data", speed=1.0, trust=False)
     with pytest.raises(UserError, match="study 'builtin:paper' is unknown"), serving:
         pass
+
+
+def test_a_pilot_that_cannot_begin_leaves_no_study_behind(tmp_path):
+    study = tmp_path / "study.yaml"
+    judge = "{kind: judge, question: danger, pairs: none.json, show: snapshot, count: 1}"
+    study.write_text(
+        f'title: A study\nrobots: {{a: "builtin:vanilla"}}\nroles:\n  rater:\n    participants: 1\n'
+        f"    stages: [{judge}]\n"
+    )
+    order = PilotOrder(study=str(study), data=tmp_path / "pilot", scripts=("still",))
+    with pytest.raises(UserError, match=r"none\.json does not exist"):
+        run_pilot(order, lambda _: lambda: None)
+    assert not (order.data / FILE).exists()
 
 
 @pytest.mark.parametrize(
@@ -170,5 +206,7 @@ def test_robots_that_run_code_need_trust():
 def test_tasks_that_run_code_need_trust():
     plan = load_plan("builtin:paper-exhaustiveness")
     plan = plan.model_copy(update={"task": "pettingzoo:my_code:make"})
-    with pytest.raises(UserError, match="runs code: say --trust if you trust whoever wrote it"):
+    with pytest.raises(
+        UserError, match="runs code: say --trust if you trust whoever wrote the study"
+    ):
         open_players(plan, trust=False)

@@ -337,6 +337,16 @@ def test_an_overview_says_what_each_role_does_and_how_long_it_takes():
     assert expert == f"expert       1      ≈ 6  {before} to make it fail"
 
 
+def test_players_who_practise_once_are_advised_to_practise_twice(parsed):
+    plan = parsed(
+        TEXT.replace("      - {kind: practise}\n", "      - {kind: practise, episodes: 1}\n")
+    )
+    assert advice(plan)[0] == (
+        "novice: practises once, which does not tell the device from the person: ask for {kind: "
+        "practise, episodes: 2} or more"
+    )
+
+
 def test_players_who_never_practise_are_advised_against(parsed):
     plan = parsed(TEXT.replace("      - {kind: practise}\n", ""))
     assert advice(plan)[0] == (

@@ -7,7 +7,7 @@ import { readFrame, type Frame } from "../src/study/play/frame.js";
 import { LiveClip } from "../src/study/play/live-clip.js";
 import { Pacer } from "../src/study/play/pacer.js";
 import { dragged, keyed, metresPerPixel, pushed, reachable, type Sight } from "../src/study/play/target.js";
-import { readBegun } from "../src/study/play/live.js";
+import { Live, readBegun } from "../src/study/play/live.js";
 import { wordsOf } from "../src/study/words.js";
 import { placed, placementFor, shoulderOf, sideOf } from "../src/study/xr/placing.js";
 
@@ -200,4 +200,49 @@ test("a state of unknown shape is harmless", () => {
   assert.deepEqual(state.stages, [{ kind: "watch", index: 0 }, { kind: "", index: 1 }]);
   assert.deepEqual(state.stage, {});
   assert.equal(state.language, "en");
+});
+
+test("a connection of which nothing is heard is given up, and opened anew", (t) => {
+  t.mock.timers.enable({ apis: ["setInterval", "setTimeout"] });
+  const opened: Silent[] = [];
+  class Silent extends EventTarget {
+    static readonly OPEN = 1;
+    readonly readyState = 1;
+    readonly sent: string[] = [];
+    binaryType = "";
+    isClosed = false;
+    constructor() {
+      super();
+      opened.push(this);
+    }
+    send(message: string): void {
+      this.sent.push(message);
+    }
+    close(): void {
+      this.isClosed = true;
+    }
+  }
+  Object.assign(globalThis, { WebSocket: Silent, window: globalThis });
+  const told: string[] = [];
+  const live = new Live("ws://study/live", {
+    connected: () => told.push("connected"), lost: () => told.push("lost"), closed: () => told.push("closed"),
+    begun: () => undefined, frame: () => undefined, finished: () => undefined, refused: () => undefined,
+  });
+  const [first] = opened as [Silent];
+  first.dispatchEvent(new Event("open"));
+  t.mock.timers.tick(6000);
+  first.dispatchEvent(new MessageEvent("message", { data: '{"type": "pong", "sent": 0}' }));
+  t.mock.timers.tick(9000);
+  assert.deepEqual([told, first.isClosed], [["connected"], false]);
+  t.mock.timers.tick(2000);
+  assert.deepEqual([told, first.isClosed], [["connected", "lost"], true]);
+  first.dispatchEvent(Object.assign(new Event("close"), { code: 1006 })); // Late: it is said once.
+  t.mock.timers.tick(300);
+  assert.deepEqual([told.length, opened.length], [2, 2]);
+  live.dispose();
+});
+
+test("the steps count what comes before the stages", () => {
+  assert.deepEqual(readState({ before: ["consent", "demographics"] }).before, ["consent", "demographics"]);
+  assert.deepEqual(readState({}).before, []);
 });

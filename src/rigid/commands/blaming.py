@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import tyro
 
 from rigid.commands.naming import MeasuredTaskOptions, OpeningOptions
+from rigid.commands.stopping import goes_on
 
 _shown_as = tyro.conf.arg
 
@@ -39,20 +40,16 @@ class BlameCommand(OpeningOptions, MeasuredTaskOptions):
         """Trains the responses and prints what they say."""
         from rich.console import Console
 
-        from rigid.compute.blame import blame
+        from rigid.compute.blame import FILE, blame
 
-        console = Console(stderr=True)
+        console, file = Console(stderr=True), self.directory / FILE
         names = None if self.points is None else [part.strip() for part in self.points.split(",")]
-        try:
+        with goes_on(file, file.exists):
             found = blame(
                 self.directory, task=self.named_task(), robot=self.robot, opening=self.opening(),
                 points=names,
                 say=lambda text: console.print(text, highlight=False, markup=False),
             )  # fmt: skip
-        except KeyboardInterrupt:
-            raise KeyboardInterrupt(
-                f"the same command goes on in {self.directory}/blame.json"
-            ) from None
         print(json.dumps(found, indent=1) if self.json else table(found))
         return 0
 

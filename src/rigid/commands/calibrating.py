@@ -12,6 +12,7 @@ import tyro
 
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import at_least, parse_seeds
+from rigid.commands.stopping import goes_on
 
 _shown_as = tyro.conf.arg
 
@@ -64,15 +65,11 @@ class CalibrateCommand(PairOptions):
             self.open_task(), self.robot, self.human, self.canonical, opening=self.opening()
         )
         run = self.out.with_name(f"{self.out.stem}.run")
-        try:
-            with TerminalListener(f"{self.robot} · λ = 0") as listener:
-                listener.say(f"preparing {self.robot} on {self.task} (preset {preset.name})")
-                executor = None if self.executor == "local" else find_executor(self.executor)
-                found = calibrate(
-                    subject, preset, out=self.out, run=run, executor=executor, listener=listener
-                )
-        except KeyboardInterrupt:
-            raise KeyboardInterrupt(f"the same command goes on in {run}") from None
+        executor = None if self.executor == "local" else find_executor(self.executor)
+        with goes_on(run), TerminalListener(f"{self.robot} · λ = 0") as listener:
+            found = calibrate(
+                subject, preset, out=self.out, run=run, executor=executor, listener=listener
+            )
         print(json.dumps(found) if self.json else said(found, self.out))
         return 0
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import json
 import sys
 from collections.abc import Sequence
@@ -13,7 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import tyro
 
 from rigid.commands.data_looking import CheckCommand, ShowCommand
+from rigid.commands.groups import member
 from rigid.commands.naming import TaskOptions
+from rigid.commands.places import new_file
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -41,7 +42,9 @@ class ImportCommand(TaskOptions):
     source: Annotated[str, _shown_as(name="from", metavar="FILE.csv|DIR|minari:ID")]
     """A CSV file, a folder of them (a file an episode), or a Minari dataset."""
     out: Path
-    """File to write (.npz)."""
+    """File to write (.npz); one that is there stays."""
+    overwrite: bool = False
+    """Replace a file that is there, and what people consented to in it."""
     map_: Annotated[Path | None, _shown_as(name="map", metavar="FILE")] = None
     """JSON or YAML: which columns of the recording are which, and in what units."""
     rate: Annotated[float | None, _shown_as(metavar="HZ")] = None
@@ -65,10 +68,10 @@ class ImportCommand(TaskOptions):
         from rigid.data.episodes import save_episodes
         from rigid.data.importing import import_recording
         from rigid.data.sources import open_source
-        from rigid.files import make_room, writing_to
+        from rigid.files import writing_to
 
+        new_file(self.out, overwrite=self.overwrite)
         task, map_ = self.open_task(), load_map(self.map_)
-        make_room(self.out)
         opened = open_source(self.source, task, map_, rate=self.rate)
         about = opened.about
         if self.consent is not None:
@@ -157,7 +160,7 @@ class ExportCommand:
     file: Annotated[Path, tyro.conf.Positional]
     """File of episodes (.npz)."""
     out: Annotated[str, _shown_as(metavar="PATH|minari:ID")]
-    """New directory, named as Minari wants (NAME-v0), or minari:ID; for CSV a file."""
+    """New directory, named as Minari wants (NAME-v0), or minari:ID; for CSV a new file."""
     to: Literal["minari", "csv"] = "minari"
     """Format."""
     agent: Literal["human", "robot"] = "human"
@@ -182,20 +185,10 @@ class DataCommand:
     """Canonical episodes from people: import, look at, check, export."""
 
     what: (
-        Annotated[
-            ImportCommand,
-            tyro.conf.subcommand("import", description=inspect.getdoc(ImportCommand)),
-        ]
-        | Annotated[
-            ShowCommand, tyro.conf.subcommand("show", description=inspect.getdoc(ShowCommand))
-        ]
-        | Annotated[
-            CheckCommand, tyro.conf.subcommand("check", description=inspect.getdoc(CheckCommand))
-        ]
-        | Annotated[
-            ExportCommand,
-            tyro.conf.subcommand("export", description=inspect.getdoc(ExportCommand)),
-        ]
+        Annotated[ImportCommand, member("import", ImportCommand)]
+        | Annotated[ShowCommand, member("show", ShowCommand)]
+        | Annotated[CheckCommand, member("check", CheckCommand)]
+        | Annotated[ExportCommand, member("export", ExportCommand)]
     )
     """What to do."""
 

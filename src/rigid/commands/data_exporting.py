@@ -51,6 +51,9 @@ def _csv(command: ExportCommand, episodes: CanonicalEpisodes) -> str:
 
     out = Path(command.out)
     make_room(out)
+    for path in (out, beside_csv(out)):
+        if path.exists():
+            raise UserError(f"{path} exists already: choose a new file with --out")
     with writing_to(out):
         write_csv(episodes, out)
     return f"{len(episodes)} episodes: {out}, and what a table has no room for: {beside_csv(out)}"

@@ -13,6 +13,7 @@ import tyro
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_budget
 from rigid.commands.ranging import RangeOptions
+from rigid.commands.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -68,17 +69,14 @@ class DoctorCommand(RangeOptions, PairOptions):
 
         task = self.open_task()
         check_doctor_place(self.out)
-        try:
-            with TerminalListener(f"{self.task} · doctor") as listener:
-                subject = self._subject(task)
-                preset = doctor_preset(task)
-                if seconds is not None:
-                    preset = self._fitted(preset, task, seconds)
-                listener.say(f"examining {self.task} with {subject.robot}")
-                found = examine(subject, preset, out=self.out, listener=listener)
-                page = write_doctor_page(found, self.out)
-        except KeyboardInterrupt:
-            raise KeyboardInterrupt(f"the same command goes on in {self.out}") from None
+        with goes_on(self.out), TerminalListener(f"{self.task} · doctor") as listener:
+            subject = self._subject(task)
+            preset = doctor_preset(task)
+            if seconds is not None:
+                preset = self._fitted(preset, task, seconds)
+            listener.say(f"examining {self.task} with {subject.robot}")
+            found = examine(subject, preset, out=self.out, listener=listener)
+            page = write_doctor_page(found, self.out)
         print(json.dumps(found.describe()) if self.json else f"{table(found.verdicts)}\n\n{page}")
         return 1 if found.failed else 0
 

@@ -25,7 +25,10 @@ if TYPE_CHECKING:
 _shown_as = tyro.conf.arg
 _OF_RUNS = ("point", "episode", "side_by_side", "keypoints")
 _OF_PAIRS = ("robot", "human", "seed", "onnx", "agent", "trust", "vecnormalize", "frames")
-_OF_FILMS = ("human", "seed", "trust", "vecnormalize", "frames", "size", "fps", "speed")
+_OF_FILMS = (
+    "human", "seed", "trust", "vecnormalize", "frames", "size", "fps", "speed",
+    "point", "episode", "side_by_side",
+)  # fmt: skip
 _FINEST = 240
 """Pictures per second; more is no film. Ours."""
 _SMALLEST, _LARGEST = 64, 4096
@@ -125,7 +128,7 @@ class ExportCommand(OpeningOptions):
             "needs a run directory" if self.directory is None else "goes without a run directory"
         )
         self._refuse_given(idle, reason)
-        if self.directory is None and self.video is None:
+        if self.video is None:
             self._refuse_given(_OF_FILMS, "is for --video FILE")
         at_least("--seed", self.seed, 0)
         if self.video is not None:
@@ -210,7 +213,7 @@ def _write_film(
         takes.append(Take(shown.canonical, "the synthetic human, same start"))
     count = len(settings.times(shown.motion))
     with TerminalListener("filming") as listener:
-        listener.expect(count)
+        listener.expect(count, after="writing")
 
         def watched() -> Iterator[Any]:
             for picture in film(scene, takes, settings):

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rigid.commands.parsing import parse_seeds
+from rigid.commands.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -65,16 +66,10 @@ def measure_fleet(
         )
         for robot, directory in zip(robots, directories, strict=True)
     ]  # fmt: skip
-    try:
-        with TerminalListener(f"{len(robots)} robots · {budget.name}") as terminal:
-            terminal.say(f"measuring {len(robots)} robots on {task} (preset {budget.name})")
-            bar = FleetBar(
-                terminal, sum(order.env_steps for order in orders if not _done(order.out))
-            )
-            told = [replace(o, listener=OneOfFleet(bar, o.out.name)) for o in orders]
-            measure_robots(told, where)
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"the same command goes on in {out}") from None
+    with goes_on(out), TerminalListener(f"{len(robots)} robots · {budget.name}") as terminal:
+        bar = FleetBar(terminal, sum(order.env_steps for order in orders if not _done(order.out)))
+        told = [replace(o, listener=OneOfFleet(bar, o.out.name)) for o in orders]
+        measure_robots(told, where)
     return directories
 
 

@@ -35,7 +35,7 @@ def draw_keypoints(directory: Path, task: str | None, path: Path) -> None:
     points = sources.worst_by_band(run.frontier.points)
     episodes = []
     with TerminalListener("drawing") as listener:
-        listener.expect(len(points) + 1)
+        listener.expect(len(points) + 1, after="writing")
         for point in points:
             episodes.append(sources.stored(run, point, "worst"))
             listener.advance(1)

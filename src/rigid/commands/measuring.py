@@ -13,6 +13,7 @@ import tyro
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_budget, parse_lambdas, parse_seeds
 from rigid.commands.ranging import RangeOptions
+from rigid.commands.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -118,22 +119,18 @@ def _measure(options: FrontierCommand) -> int:
                 "choose --preset and --seeds"
             )
         preset = _fitted(preset, options, task, budget, lambdas)
-    try:
-        with TerminalListener(f"{options.robot} · {preset.name}") as listener:
-            listener.say(f"preparing {options.robot} on {options.task} (preset {preset.name})")
-            frontier = measure(
-                task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
-                lambdas=lambdas, memory=options.memory, search_measure=options.search_measure,
-                features=options.features, human=options.human, canonical=options.canonical,
-                executor=options.executor, opening=options.opening(), listener=listener,
-                return_range=options.return_range,
-            )  # fmt: skip
-            report = options.out / "report.html"
-            if not report.exists():
-                listener.say("drawing the report")
-                frontier.report()
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"the same command goes on in {options.out}") from None
+    with goes_on(options.out), TerminalListener(f"{options.robot} · {preset.name}") as listener:
+        frontier = measure(
+            task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
+            lambdas=lambdas, memory=options.memory, search_measure=options.search_measure,
+            features=options.features, human=options.human, canonical=options.canonical,
+            executor=options.executor, opening=options.opening(), listener=listener,
+            return_range=options.return_range,
+        )  # fmt: skip
+        report = options.out / "report.html"
+        if not report.exists():
+            listener.say("drawing the report")
+            frontier.report()
     print(json.dumps(dict(frontier.data)) if options.json else headline(frontier, report))
     return 0
 

@@ -13,6 +13,7 @@ import tyro
 
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import at_least, parse_expected
+from rigid.commands.places import file_played_again
 from rigid.commands.ranging import RangeOptions
 
 
@@ -39,21 +40,23 @@ class RecordCommand(_PlayOptions):
 
     def run(self) -> int:
         """Plays and stores the episodes."""
+        from rigid.commands.progress import playing
         from rigid.data.episodes import save_episodes
-        from rigid.data.recording import record
-        from rigid.files import make_room, writing_to
+        from rigid.data.recording import BATCH, record
+        from rigid.files import writing_to
         from rigid.policies.loading import load_policy
 
         at_least("--episodes", self.episodes, 1)
         at_least("--seed", self.seed, 0)
-        make_room(self.out)
+        file_played_again(self.out)
         task, opening = self.open_task(), self.opening()
         robot = load_policy(self.robot, task=task, agent="robot", opening=opening)
         human = load_policy(self.human, task=task, agent="human", opening=opening)
         made_by = {"robot": self.robot, "human": self.human}
-        found = record(
-            task, robot, human, episodes=self.episodes, seed=self.seed, provenance=made_by
-        )
+        with playing(task, self.episodes, BATCH) as seen:
+            found = record(
+                seen, robot, human, episodes=self.episodes, seed=self.seed, provenance=made_by
+            )
         with writing_to(self.out):
             save_episodes(self.out, found)
         success = float(found.success.mean())
@@ -78,7 +81,8 @@ class EvaluateCommand(RangeOptions, _PlayOptions):
 
     def run(self) -> int:
         """Plays and prints."""
-        from rigid.compute.evaluation import evaluate
+        from rigid.commands.progress import playing
+        from rigid.compute.evaluation import BLOCK, evaluate
         from rigid.compute.return_range import find_return_range, range_in_force, spoken_range
         from rigid.policies.loading import load_policy
         from rigid.tasks.views.ranged import with_range
@@ -88,13 +92,11 @@ class EvaluateCommand(RangeOptions, _PlayOptions):
         at_least("--seed", self.seed, 0)
         task, opening = self.open_task(), self.opening()
         chosen = find_return_range(self.return_range, task)
-        found = evaluate(
-            task if chosen is None else with_range(task, chosen.ends),
-            load_policy(self.robot, task=task, agent="robot", opening=opening),
-            load_policy(self.human, task=task, agent="human", opening=opening),
-            episodes=self.episodes,
-            seed=self.seed,
-        )
+        ranged = task if chosen is None else with_range(task, chosen.ends)
+        robot = load_policy(self.robot, task=task, agent="robot", opening=opening)
+        human = load_policy(self.human, task=task, agent="human", opening=opening)
+        with playing(ranged, self.episodes, min(BLOCK, self.episodes)) as seen:
+            found = evaluate(seen, robot, human, episodes=self.episodes, seed=self.seed)
         if found["adversarialness"] is not None:
             found |= range_in_force(task, chosen).describe()
         if expected is not None:

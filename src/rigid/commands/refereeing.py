@@ -14,6 +14,7 @@ import tyro
 
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_seeds
+from rigid.commands.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -55,8 +56,11 @@ class RefereeCommand(PairOptions):
         preset = find_preset(self.preset)
         preset = preset if seeds is None else replace(preset, seeds=seeds)
         subject = Subject(self.open_task(), self.robot, self.human, opening=self.opening())
-        with _place(self.out) as out, TerminalListener(f"{self.robot} · gates") as listener:
-            listener.say(f"preparing {self.robot} on {self.task} (preset {preset.name})")
+        with (
+            _place(self.out) as out,
+            goes_on(out, None if self.out else lambda: False),
+            TerminalListener(f"{self.robot} · gates") as listener,
+        ):
             verdict = check_referee(subject, preset, out=out, listener=listener)
         print(json.dumps(verdict.describe()) if self.json else table(verdict))
         return 1 if verdict.failed else 0

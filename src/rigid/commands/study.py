@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 from dataclasses import dataclass
 from typing import Annotated
 
-import tyro
-
+from rigid.commands.groups import member
 from rigid.commands.study_analyzing import AnalyzeCommand
 from rigid.commands.study_exporting import ExportCommand, WithdrawCommand
 from rigid.commands.study_piloting import PilotCommand
@@ -21,30 +19,14 @@ class StudyCommand:
     """People in the loop: they play against the robot, and judge motions."""
 
     what: (
-        Annotated[NewCommand, tyro.conf.subcommand("new", description=inspect.getdoc(NewCommand))]
-        | Annotated[
-            ShowCommand, tyro.conf.subcommand("show", description=inspect.getdoc(ShowCommand))
-        ]
-        | Annotated[
-            PowerCommand, tyro.conf.subcommand("power", description=inspect.getdoc(PowerCommand))
-        ]
-        | Annotated[
-            PilotCommand, tyro.conf.subcommand("pilot", description=inspect.getdoc(PilotCommand))
-        ]
-        | Annotated[
-            ServeCommand, tyro.conf.subcommand("serve", description=inspect.getdoc(ServeCommand))
-        ]
-        | Annotated[
-            WithdrawCommand,
-            tyro.conf.subcommand("withdraw", description=inspect.getdoc(WithdrawCommand)),
-        ]
-        | Annotated[
-            ExportCommand, tyro.conf.subcommand("export", description=inspect.getdoc(ExportCommand))
-        ]
-        | Annotated[
-            AnalyzeCommand,
-            tyro.conf.subcommand("analyze", description=inspect.getdoc(AnalyzeCommand)),
-        ]
+        Annotated[NewCommand, member("new", NewCommand)]
+        | Annotated[ShowCommand, member("show", ShowCommand)]
+        | Annotated[PowerCommand, member("power", PowerCommand)]
+        | Annotated[PilotCommand, member("pilot", PilotCommand)]
+        | Annotated[ServeCommand, member("serve", ServeCommand)]
+        | Annotated[WithdrawCommand, member("withdraw", WithdrawCommand)]
+        | Annotated[ExportCommand, member("export", ExportCommand)]
+        | Annotated[AnalyzeCommand, member("analyze", AnalyzeCommand)]
     )
     """What to do."""
 

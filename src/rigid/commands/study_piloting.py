@@ -104,10 +104,8 @@ def _progress() -> Iterator[Begin]:
     with Progress(console=console, disable=not console.is_terminal) as bar:
 
         def begin(ahead: Ahead) -> Callable[[], None]:
-            console.print(
-                f"{ahead.people} scripts take part; they play for about {spoken(ahead.seconds)}",
-                highlight=False,
-            )
+            plays = f"; they play for about {spoken(ahead.seconds)}" if ahead.seconds else ""
+            console.print(f"{ahead.people} scripts take part{plays}", highlight=False)
             task = bar.add_task("pilot", total=ahead.things)
             return lambda: bar.advance(task)
 

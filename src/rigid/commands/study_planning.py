@@ -85,7 +85,7 @@ class ShowCommand:
 
     def run(self) -> int:
         """Reads, checks and prints."""
-        from rigid.study.judging.questionnaire import questionnaire
+        from rigid.study.judging.questionnaire import judge_stages, questionnaire
         from rigid.study.overview import advice, overview
         from rigid.study.plan import load_plan, plan_hash
 
@@ -96,10 +96,8 @@ class ShowCommand:
         print(f"study {plan_hash(plan)}\n")
         print("\n".join(overview(plan, episode_seconds=self._open(plan))))
         print("\n".join(["", *advice(plan)]))
-        for role in plan.roles.values():
-            for stage in role.stages:
-                if stage.kind == "judge":
-                    questionnaire(stage)
+        for stage in judge_stages(plan):
+            questionnaire(stage)
         if self.preview:
             self._serve(plan)
         return 0

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import secrets
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
 from rigid.commands.naming import OpeningOptions
+from rigid.commands.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
-    from rigid.policies.protocol import Policy
     from rigid.study.plan import StudyPlan
+    from rigid.study.players import Players
     from rigid.study.store import Store
-    from rigid.tasks.protocol import Task
 
 _shown_as = tyro.conf.arg
 _KEYS = "abcdefghijklmnopqrstuvwxyz"
@@ -75,7 +75,8 @@ class ServeCommand(OpeningOptions):
                     store, plan, task, robots, data=self.data, address=address, say=_say
                 )
                 self._print_links(store, plan, address, token)
-                serve(service, opened, certificate=self.tls_cert, key=self.tls_key)
+                with goes_on(self.data, lambda: True):
+                    serve(service, opened, certificate=self.tls_cert, key=self.tls_key)
         return 0
 
     def _plan(self) -> StudyPlan:
@@ -101,25 +102,12 @@ class ServeCommand(OpeningOptions):
             changes["robots"] = dict(zip(plan.robots, self.robot, strict=True))
         return plan.model_copy(update=changes)
 
-    def _players(self, plan: StudyPlan) -> tuple[Task, dict[str, Policy]]:
-        from dataclasses import replace
+    def _players(self, plan: StudyPlan) -> Players:
+        """What the command line names is trusted as anywhere; what a file names is not."""
+        from rigid.study.players import open_players
 
-        from rigid.policies.loading import load_policy
-        from rigid.tasks.registry import make_task
-
-        if ":" in plan.task and not (self.task or self.trust):
-            raise UserError(
-                f"the study's task {plan.task!r} runs code: say --trust if you trust whoever wrote "
-                "the study, or name it with --task"
-            )
-        task = make_task(plan.task)
-        named_here = bool(self.robot) or self.trust
-        opening = replace(self.opening(), named_by_user=named_here)
-        robots = {
-            key: load_policy(spec, task=task, agent="robot", opening=opening)
-            for key, spec in plan.robots.items()
-        }
-        return task, robots
+        opening = replace(self.opening(), named_by_user=bool(self.robot) or self.trust)
+        return open_players(plan, trust=self.trust or bool(self.task), opening=opening)
 
     def _print_links(self, store: Store, plan: StudyPlan, address: str, given: str | None) -> None:
         """The only moment at which tokens are seen."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 from dataclasses import dataclass
 from typing import Annotated
 
-import tyro
-
+from rigid.commands.groups import member
 from rigid.commands.training_clone import CloneCommand
 from rigid.commands.training_palm import PalmCommand
 from rigid.commands.training_robots import CoOptimizeCommand, GleaveCommand, VanillaCommand
@@ -19,30 +17,12 @@ class TrainCommand:
     """Make humans and robots."""
 
     recipe: (
-        Annotated[
-            CoOptimizeCommand,
-            tyro.conf.subcommand("co-optimize", description=inspect.getdoc(CoOptimizeCommand)),
-        ]
-        | Annotated[
-            VanillaCommand,
-            tyro.conf.subcommand("vanilla", description=inspect.getdoc(VanillaCommand)),
-        ]
-        | Annotated[
-            GleaveCommand,
-            tyro.conf.subcommand("gleave", description=inspect.getdoc(GleaveCommand)),
-        ]
-        | Annotated[
-            PalmCommand,
-            tyro.conf.subcommand("palm", description=inspect.getdoc(PalmCommand)),
-        ]
-        | Annotated[
-            CloneCommand,
-            tyro.conf.subcommand("clone", description=inspect.getdoc(CloneCommand)),
-        ]
-        | Annotated[
-            RobustCommand,
-            tyro.conf.subcommand("robust-gt", description=inspect.getdoc(RobustCommand)),
-        ]
+        Annotated[CoOptimizeCommand, member("co-optimize", CoOptimizeCommand)]
+        | Annotated[VanillaCommand, member("vanilla", VanillaCommand)]
+        | Annotated[GleaveCommand, member("gleave", GleaveCommand)]
+        | Annotated[PalmCommand, member("palm", PalmCommand)]
+        | Annotated[CloneCommand, member("clone", CloneCommand)]
+        | Annotated[RobustCommand, member("robust-gt", RobustCommand)]
     )
     """What to train."""
 

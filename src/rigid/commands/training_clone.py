@@ -131,10 +131,12 @@ def _showing(
 ) -> Iterator[tuple[Callable[[Progress], None], Callable[[str], None]]]:
     """A bar over the looks at held-out episodes, and lines for what follows."""
     from rich.console import Console
-    from rich.progress import Progress as Bar
+    from rich.progress import MofNCompleteColumn
+
+    from rigid.commands.progress import TimeColumn, bar_of
 
     console = Console(stderr=True)
-    with Bar(console=console) as bar:
+    with bar_of(console, MofNCompleteColumn(), TimeColumn("judging")) as bar:
         task = bar.add_task("cloning", total=looks)
 
         def report(progress: Progress) -> None:

@@ -8,6 +8,7 @@ from typing import Annotated
 import tyro
 
 from rigid.commands.parsing import at_least
+from rigid.commands.stopping import goes_on
 from rigid.commands.training_progress import show_progress
 from rigid.commands.training_robots import RobotOptions
 
@@ -42,6 +43,7 @@ class PalmCommand(RobotOptions):
             at_least("--diverse-iterations", self.diverse_iterations, 1)
             diverse = replace(diverse, iterations=self.diverse_iterations)
         with (
+            goes_on(self.out),
             show_progress("co-optimising a diverse pair", diverse.iterations) as report_diverse,
             show_progress("personalising", palm.personalisation.iterations) as report,
         ):

@@ -2,45 +2,77 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from math import isnan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, final
 
 if TYPE_CHECKING:
+    import rich.progress
+    from rich.console import Console
+
     from rigid.learning.cooptimisation import Progress
+    from rigid.tasks.protocol import Task
+
+
+@final
+class Shown:
+    """Told after every iteration, as `rigid.robots.storing.Report`; and within one, if asked."""
+
+    def __init__(
+        self, bar: rich.progress.Progress, console: Console, what: str, iterations: int
+    ) -> None:
+        self._bar, self._console = bar, console
+        self._what, self._iterations = what, iterations
+        self._task = bar.add_task(what, total=iterations, done=0)
+        self._done, self._within = 0, 0.0
+
+    def __call__(self, progress: Progress) -> None:
+        """An iteration is done."""
+        seen = f"return {progress.mean_return:.1f}"
+        if not isnan(progress.success):  # Of a task that defines none.
+            seen += f" · success {progress.success:.2f}"
+        self._done, self._within = progress.iteration + 1, 0.0
+        self._bar.update(
+            self._task, completed=self._done, done=self._done, description=f"{self._what} · {seen}"
+        )
+        # A bar does not show in a log.
+        if not self._console.is_terminal and self._done % 10 == 0:
+            self._console.print(
+                f"{self._what} {self._done}/{self._iterations} · {seen}", highlight=False
+            )
+
+    def within(self, task: Task, episodes: int) -> Task:
+        """The same task, whose steps move the bar within iterations of so many episodes."""
+        from rigid.commands.progress import PATIENCE
+        from rigid.tasks.views.watched import watched
+
+        per_iteration = episodes * task.horizon
+
+        def tell(env_steps: int) -> None:
+            self._within = min(self._within + env_steps / per_iteration, 0.99)
+            if self._done < self._iterations:  # Afterwards canonical episodes are played.
+                self._bar.update(self._task, completed=self._done + self._within)
+
+        return watched(task, tell, PATIENCE)
 
 
 @contextmanager
-def show_progress(what: str, iterations: int) -> Iterator[Callable[[Progress], None]]:
-    """A progress bar over iterations with the newest return and success."""
+def show_progress(what: str, iterations: int, after: str = "storing") -> Iterator[Shown]:
+    """A progress bar over iterations with the newest return and success.
+
+    Args:
+        what: Is trained.
+        iterations: How many there are.
+        after: What is done once they are over.
+    """
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
-    from rich.progress import (
-        Progress as Bar,
-    )
+    from rich.progress import TextColumn
+    from rich.table import Column
 
-    columns = (
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
-        TextColumn("left"), TimeRemainingColumn(),
-    )  # fmt: skip
+    from rigid.commands.progress import TimeColumn, bar_of
+
     console = Console(stderr=True)
-    with Bar(*columns, console=console) as bar:
-        task = bar.add_task(what, total=iterations)
-
-        def report(progress: Progress) -> None:
-            seen = f"return {progress.mean_return:.1f}"
-            if not isnan(progress.success):  # Of a task that defines none.
-                seen += f" · success {progress.success:.2f}"
-            done = progress.iteration + 1
-            bar.update(task, completed=done, description=f"{what} · {seen}")
-            if not console.is_terminal and done % 10 == 0:  # A bar does not show in a log.
-                console.print(f"{what} {done}/{iterations} · {seen}", highlight=False)
-
-        yield report
+    counted = TextColumn("{task.fields[done]}/{task.total}", table_column=Column(no_wrap=True))
+    with bar_of(console, counted, TimeColumn(after)) as bar:
+        yield Shown(bar, console, what, iterations)

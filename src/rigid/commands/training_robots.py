@@ -10,6 +10,7 @@ import tyro
 
 from rigid.commands.naming import TaskOptions
 from rigid.commands.parsing import at_least
+from rigid.commands.stopping import goes_on
 from rigid.commands.training_progress import show_progress
 
 _count = tyro.conf.arg(metavar="INT")
@@ -43,8 +44,9 @@ class CoOptimizeCommand(TaskOptions):
             at_least("--iterations", self.iterations, 1)
             settings = CoOptimisationSettings(iterations=self.iterations)
         settings = fitted(settings, task.horizon)
-        with show_progress("co-optimising", settings.iterations) as report:
-            train_pair(task, settings, seed=self.seed, out=self.out, report=report)
+        with goes_on(self.out), show_progress("co-optimising", settings.iterations) as report:
+            shown = report.within(task, settings.episodes)
+            train_pair(shown, settings, seed=self.seed, out=self.out, report=report)
         print(f"human: {self.out / 'human'}\nrobot: {self.out / 'robot'}")
         return 0
 
@@ -97,9 +99,10 @@ class VanillaCommand(RobotOptions):
         settings = fitted(replace(PersonalisationSettings(), memory=self.memory), task.horizon)
         if self.iterations is not None:
             settings = replace(settings, iterations=self.iterations)
-        with show_progress("personalising", settings.iterations) as report:
+        with goes_on(self.out), show_progress("personalising", settings.iterations) as report:
+            shown = report.within(task, settings.episodes)
             train_vanilla(
-                task, settings, pair=self.pair, seed=self.seed, out=self.out,
+                shown, settings, pair=self.pair, seed=self.seed, out=self.out,
                 canonical_episodes=self.episodes, report=report,
             )  # fmt: skip
         print(f"robot: {self.out}")
@@ -142,6 +145,7 @@ class GleaveCommand(RobotOptions):
             population=fitted(population, task.horizon),
         )
         with (
+            goes_on(self.out),
             show_progress("co-optimising", population.iterations) as of_population,
             show_progress("personalising", personalisation.iterations) as report,
         ):

@@ -13,6 +13,7 @@ import tyro
 
 from rigid.commands.naming import MeasuredTaskOptions
 from rigid.commands.parsing import at_least
+from rigid.commands.stopping import goes_on
 from rigid.commands.training_progress import show_progress
 from rigid.errors import UserError
 
@@ -70,12 +71,13 @@ class RobustCommand(MeasuredTaskOptions):
         frontier = load_frontier(self.run_)
         preset = find_preset(self.preset or str(frontier.data["preset"]))
         length = settings.training.iterations
-        runs = train_in_rounds(
-            self.run_, settings, preset, rounds=self.rounds, seed=self.seed, out=self.out,
-            canonical_episodes=self.episodes, task=self.named_task(), robot=self.robot,
-            training=lambda name: show_progress(f"{name}: retraining", length),
-            searching=_searching,
-        )  # fmt: skip
+        with goes_on(self.out):
+            runs = train_in_rounds(
+                self.run_, settings, preset, rounds=self.rounds, seed=self.seed, out=self.out,
+                canonical_episodes=self.episodes, task=self.named_task(), robot=self.robot,
+                training=lambda name: show_progress(f"{name}: retraining", length),
+                searching=_searching,
+            )  # fmt: skip
         fresh = seeds_not_used(runs, len(preset.seeds))
         human = frontier.data["human"]
         named = "".join(

@@ -29,6 +29,7 @@ from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.native import save_policy
 from rigid.presets import Preset
 from rigid.tasks.protocol import Task
+from rigid.tasks.views.watched import WatchedWorld
 
 Row = dict[str, Any]
 """A line of `metrics.jsonl`: iteration, and numbers or None."""
@@ -186,12 +187,13 @@ def train_group(
             _read_metrics(inputs, plan.member(i), count, checkpoint) for i in range(len(history))
         ]
         advance(per_iteration * count)
-    world = inputs.task.make_world(search.blocks * inputs.preset.episodes, threads=inputs.threads)
+    batch = search.blocks * inputs.preset.episodes
+    world = WatchedWorld(inputs.task.make_world(batch, threads=inputs.threads), advance)
     for iteration in range(search.iteration(state), inputs.preset.iterations):
         state, metrics = search.iterate(world, state)
         for rows, seen in zip(history, metrics, strict=True):
             rows.append(_metrics_row(iteration, seen))
-        advance(per_iteration)
+        world.tell_all()
         last = iteration + 1 == inputs.preset.iterations
         if last or (iteration + 1) % CHECKPOINT_EVERY == 0:
             _save(inputs, plan, search.adversaries(state), history)

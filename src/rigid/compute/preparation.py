@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -66,8 +66,19 @@ class Prepared:
     identity: dict[str, Any]
 
 
-def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Prepared:
+def prepare(
+    subject: Subject,
+    preset: Preset,
+    settings: AdversarySettings,
+    say: Callable[[str], None] = lambda _: None,
+) -> Prepared:
     """Loads the players and plays the canonical episodes of search and referee.
+
+    Args:
+        subject: Who is measured.
+        preset: Budget.
+        settings: How adversaries are trained.
+        say: Told that play begins, once nothing that the user named is refused any more.
 
     Raises:
         UserError: Something the user named does not exist, is damaged or does not fit.
@@ -79,7 +90,7 @@ def prepare(subject: Subject, preset: Preset, settings: AdversarySettings) -> Pr
     task = with_range(subject.task, range_.ends) if range_.source != "task" else subject.task
     robot, human = load_players(subject)
     referee = RefereeSettings()
-    canonical, played = _canonical(subject, robot, human, preset, features, referee)
+    canonical, played = _canonical(subject, robot, human, preset, features, referee, say)
     ruler = Ruler(canonical.folds, range_.ends, referee)
     begun = time.perf_counter()
     human_play = _human_play(task, robot, human, subject.canonical_draw)
@@ -128,9 +139,11 @@ def _canonical(
     preset: Preset,
     features: Features,
     settings: RefereeSettings,
+    say: Callable[[str], None],
 ) -> tuple[Divided, int]:
     """Canonical episodes by use, and how many of them had to be played."""
     path = canonical_path(subject)
+    beginning = f"preparing {subject.robot} on {subject.task.name} (preset {preset.name})"
 
     def seen(episodes: CanonicalEpisodes) -> CanonicalEpisodes:
         return replace(episodes, features=chosen_features(features, episodes, path))
@@ -144,7 +157,10 @@ def _canonical(
             )
         search, folds = preset.search_canonical, settings.folds
         divided = divide_recorded(seen(given), search=search, folds=folds, where=path)
+        say(beginning)
         return divided._replace(whole=given), 0
+    seen_given = None if given is None else seen(given)
+    say(beginning)
     count, referee = 0, 3 * preset.referee_canonical
     if given is None:
         count = _played(preset.search_canonical)
@@ -157,7 +173,7 @@ def _canonical(
         subject.task, robot, human, episodes=referee, seed=subject.ruler_seed, batch=_BLOCK,
         provenance={},
     )  # fmt: skip
-    divided = divide_synthetic(seen(given), seen(held_out))
+    divided = divide_synthetic(seen_given or seen(given), seen(held_out))
     return divided._replace(whole=given), count + _played(referee)
 
 

@@ -166,7 +166,7 @@ def begin(order: Order, locks: ExitStack) -> RobotRun | None:
     with clock.working():
         order.check()
         seeds = seeds_of(order.preset, order.seeds)
-        prepared = prepare(order.subject, order.preset, order.settings)
+        prepared = prepare(order.subject, order.preset, order.settings, listener.say)
         locks.enter_context(alone_in(order.out))
         identity = {**prepared.identity, "lambdas": order.exactly}
         opened = open_run(order.out, identity, seeds, command_line())

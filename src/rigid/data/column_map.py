@@ -1,7 +1,7 @@
 """How the columns of somebody's recording become those that a task knows: `--map FILE`.
 
-A map is JSON (or YAML, where PyYAML is installed): for each name that RIGID knows, the name that
-the recording has, or an object that also says how to convert its numbers.
+A map is JSON or YAML: for each name that RIGID knows, the name that the recording has, or an object
+that also says how to convert its numbers.
 
     {"time": {"from": "t_ms", "unit": "ms"}, "elbow": {"from": "ElbowFlexion", "unit": "deg"},
      "itch_forearm": {"from": "target", "equals": "forearm"}, "participant": "subject"}
@@ -9,13 +9,13 @@ the recording has, or an object that also says how to convert its numbers.
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import yaml
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 
 from rigid.errors import UserError
@@ -74,6 +74,7 @@ class Column(BaseModel):
 ColumnMap = Mapping[str, Column]
 """By the name that RIGID knows."""
 
+_CURE = "docs/canonical-data.md shows one"
 _COLUMNS: TypeAdapter[dict[str, Column]] = TypeAdapter(dict[str, Column])
 
 
@@ -85,10 +86,9 @@ def load_map(path: Path | None) -> ColumnMap:
     """
     if path is None:
         return {}
-    cure = "docs/canonical-data.md shows one"
-    found = _parsed(path, read_bytes(path, cure=cure))
+    found = _parsed(path, read_bytes(path, cure=_CURE))
     if not isinstance(found, dict):
-        raise UserError(f"{path} is no map from names to columns: {cure}")
+        raise UserError(f"{path} is no map from names to columns: {_CURE}")
     named = {str(name): {"from": entry} if isinstance(entry, str) else entry
              for name, entry in found.items()}  # fmt: skip
     try:
@@ -97,19 +97,23 @@ def load_map(path: Path | None) -> ColumnMap:
         first = error.errors()[0]
         place = ".".join(str(part) for part in first["loc"])
         said = first["msg"].removeprefix("Value error, ")
-        raise UserError(f"{path}: {place}: {said}; {cure}") from None
+        raise UserError(f"{path}: {place}: {said}; {_CURE}") from None
 
 
 def _parsed(path: Path, data: bytes) -> Any:
     try:
-        if path.suffix not in {".yaml", ".yml"}:
-            return json.loads(data)
-        yaml: Any = importlib.import_module("yaml")
+        text = data.decode(json.detect_encoding(data))  # As JSON has it, also of Windows.
+    except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:
+        raise UserError(f"{path} is no text, but --map takes a JSON or YAML file: {_CURE}")
+    if path.suffix.lower() in {".yaml", ".yml"}:
         try:
-            return yaml.safe_load(data)
+            return yaml.safe_load(text)
         except yaml.YAMLError as error:
-            raise UserError(f"{path} is no YAML ({str(error).splitlines()[0]})") from None
-    except ModuleNotFoundError:
-        raise UserError(f"{path} needs PyYAML: `pip install pyyaml`, or write JSON") from None
+            said = " ".join(str(error).split())
+            raise UserError(f"{path} is no YAML ({said})") from None
+    try:
+        return json.loads(text)
     except ValueError as error:
         raise UserError(f"{path} is no JSON ({error}): mind quotes and commas") from None

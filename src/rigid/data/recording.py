@@ -16,6 +16,9 @@ from rigid.policies.discrete import taken
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task, World, control_period
 
+BATCH = 100
+"""Episodes played side by side."""
+
 
 class _Block(NamedTuple):
     """The episodes of one set of worlds."""
@@ -31,7 +34,7 @@ def record(
     *,
     episodes: int,
     seed: int,
-    batch: int = 100,
+    batch: int = BATCH,
     provenance: Mapping[str, Any],
 ) -> CanonicalEpisodes:
     """Plays `episodes` episodes and keeps what the human did.

@@ -106,9 +106,10 @@ def taken(action: Float[np.ndarray, "*n a"], spec: AgentSpec) -> Float[np.ndarra
         clipped: np.ndarray = np.clip(action, -1.0, 1.0)
         return clipped
     rows = action.reshape(-1, spec.action_size)
-    blocks = np.split(rows, np.cumsum(spec.choices)[:-1], axis=1)
-    chosen = np.stack([block.argmax(axis=1) for block in blocks], axis=1)
-    scores = scores_of(chosen, spec.choices).astype(action.dtype)
+    scores, every, start = np.full_like(rows, -1.0), np.arange(len(rows)), 0
+    for count in spec.choices:
+        scores[every, start + rows[:, start : start + count].argmax(axis=1)] = 1.0
+        start += count
     return scores.reshape(action.shape)
 
 

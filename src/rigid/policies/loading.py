@@ -140,6 +140,9 @@ _KINDS: Mapping[str, _Kind] = {
 }
 """What may stand before a colon, `builtin` aside. Libraries are imported where they are used."""
 
+_ENDINGS = {".zip": "sb3", ".pt": "torchscript", ".pth": "torchscript", ".ts": "torchscript"}
+"""How files end of kinds that have to be named, since opening them runs code."""
+
 
 def builtin_names(task: Task, agent: Agent) -> tuple[str, ...]:
     """Names that `builtin:` takes for `agent` of `task`, sorted."""
@@ -247,6 +250,10 @@ def _why_unknown(spec: str, task: Task, agent: Agent) -> str:
         return f"is of kind {kind!r}, which is unknown: {known}"
     if spec in names:
         return f"is no directory; did you mean '{_BUILTIN}{spec}'?"
+    for ending, kind in _ENDINGS.items():
+        if spec.lower().endswith(ending):
+            there = "a file" if os.path.isfile(spec) else "no directory"  # noqa: PTH113 - As in `_open`.
+            return f"is {there}; did you mean '{kind}:{spec}', with --trust?"
     return f"is no directory: {known}"
 
 

@@ -1,17 +1,11 @@
-"""The page of a comparison: curves, tables and a link to the report of each robot, in one file.
-
-Words of run directories are strangers': every one of them is escaped, and nothing of them runs,
-since the page allows no script.
-"""
+"""The page of a comparison: curves, tables and a link to the report of each robot, in one file."""
 
 from __future__ import annotations
 
-import html
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
-from string import Template
 from urllib.parse import quote
 
 from rigid.compute.return_range import spoken_range
@@ -23,6 +17,7 @@ from rigid.frontier.result import Frontier
 from rigid.frontier.standings import TITLES, Standing
 from rigid.frontier.successes import Success
 from rigid.report.curves import inline_curves
+from rigid.report.plain_page import plain_page, safe, table
 
 _TEMPLATE = resources.files("rigid.report") / "comparison.html"
 _UNKNOWN = "–"
@@ -39,8 +34,9 @@ def comparison_page(standings: Sequence[Standing], notes: Sequence[str], *, at: 
     everyone = [frontier for standing in standings for frontier in standing.robots]
     names = [standing.method.name for standing in standings]
     stamps = dict.fromkeys(str(f.data["stamp"]) for f in everyone if f.data.get("stamp"))
-    return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        title=safe(f"{_listed(names)} on {everyone[0].data['task']} · RIGID"),
+    return plain_page(
+        _TEMPLATE,
+        title=f"{_listed(names)} on {everyone[0].data['task']} · RIGID",
         facts=safe(f"{len(everyone)} robots, preset {everyone[0].data['preset']}"),
         stamp="".join(f'<p class="stamp">{safe(stamp)}</p>' for stamp in stamps),
         curves=inline_curves({s.method.name: s.robots for s in standings}),
@@ -81,7 +77,7 @@ def _methods(standings: Sequence[Standing]) -> str:
             *(_cell(numbers[key]) for key in ("worst_at", "hull_at", "auc_natural")),
             str(standing.method.robots), str(standing.method.seeds),
         ])  # fmt: skip
-    return _table(heads, rows)
+    return table(heads, rows)
 
 
 def _differences(standings: Sequence[Standing]) -> str:
@@ -97,7 +93,7 @@ def _differences(standings: Sequence[Standing]) -> str:
     ]
     heads = ["method", *TITLES.values()]
     title = f"<h2>Minus {safe(standings[0].method.name)}</h2>"
-    return f'{title}\n<div class="wide">{_table(heads, rows)}</div>'
+    return f"{title}\n{table(heads, rows)}"
 
 
 def _robots(standings: Sequence[Standing], at: Path) -> str:
@@ -116,7 +112,7 @@ def _robots(standings: Sequence[Standing], at: Path) -> str:
             ])  # fmt: skip
     heads = ("", "robot", "synthetic human", "AUC ↓", "success ↑",
              *(f"{TITLES[key]} ↓" for key in keys[1:]), "report")  # fmt: skip
-    return _table(heads, rows, text=(1, 2))
+    return table(heads, rows, text=(1, 2))
 
 
 def _link(frontier: Frontier, at: Path) -> str:
@@ -126,21 +122,6 @@ def _link(frontier: Frontier, at: Path) -> str:
         return "none"
     way = os.path.relpath(report.resolve(), at.resolve().parent)
     return f'<a href="{safe(quote(Path(way).as_posix()))}">report.html</a>'
-
-
-def _table(heads: Iterable[str], rows: Iterable[Sequence[str]], text: Sequence[int] = ()) -> str:
-    """A table of cells that are HTML; columns in `text` hold words."""
-
-    def line(cells: Iterable[str], element: str) -> str:
-        marked = (
-            f"<{element}{' class=text' if place in text else ''}>{cell}</{element}>"
-            for place, cell in enumerate(cells)
-        )
-        return f"<tr>{''.join(marked)}</tr>"
-
-    head = line(map(safe, heads), "th")
-    body = "\n".join(line(row, "td") for row in rows)
-    return f"<table><thead>{head}</thead>\n<tbody>\n{body}\n</tbody></table>"
 
 
 def _cell(found: Estimate | Success | None, form: str = ".3f") -> str:
@@ -163,8 +144,3 @@ def _listed(names: Sequence[str]) -> str:
     if len(names) <= 4:
         return ", ".join(names)
     return f"{', '.join(names[:3])} and {len(names) - 3} others"
-
-
-def safe(text: str) -> str:
-    """Any text as HTML, for content and for attributes in quotes; lone surrogates included."""
-    return html.escape(text).encode("ascii", "xmlcharrefreplace").decode("ascii")

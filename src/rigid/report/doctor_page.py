@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from importlib import resources
 from pathlib import Path
-from string import Template
 
 from rigid.compute.doctor import Diagnosis
 from rigid.doctor.verdict import Verdict
 from rigid.files import write_atomically, writing_to
-from rigid.report.comparison import safe
 from rigid.report.doctor_plots import plot_of
+from rigid.report.plain_page import plain_page, safe
 
 _TEMPLATE = resources.files("rigid.report") / "doctor.html"
 _WORDS = {"pass": "passes", "warn": "with care", "fail": "fails", "skip": "not examined"}
@@ -35,8 +34,9 @@ def write_doctor_page(diagnosis: Diagnosis, out: Path) -> Path:
 def doctor_page(diagnosis: Diagnosis) -> str:
     """The page as text."""
     about = diagnosis.about
-    return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        title=safe(f"{about['task']}: examined for RIGID"),
+    return plain_page(
+        _TEMPLATE,
+        title=f"{about['task']}: examined for RIGID",
         facts=safe(f"robot {about['robot']}, human {about['human']}, features {about['features']}"),
         outcome=_outcome(diagnosis),
         contents="\n".join(_line(number, v) for number, v in enumerate(diagnosis.verdicts)),

@@ -53,11 +53,20 @@ def _of_role(name: str, role: Role) -> Iterator[str]:
             f"{name}: nobody practises before they play, so that nothing can be claimed of their "
             "device: add - {kind: practise, episodes: 2}"
         )
+    practised = sum(s.episodes for s in role.stages if isinstance(s, PractiseStage))
+    if "play" in kinds and practised == 1:
+        yield (
+            f"{name}: practises once, which does not tell the device from the person: ask for "
+            "{kind: practise, episodes: 2} or more"
+        )
     if kinds[0] != "watch":
         yield f"{name}: begins without canonical episodes: add - {{kind: watch, episodes: 3}}"
     for stage in role.stages:
         if isinstance(stage, JudgeStage) and not stage.attention_checks:
-            yield f"{name}: has no attention checks, so that careless raters count like others"
+            yield (
+                f"{name}: {stage.question} has no attention checks, so that careless raters count "
+                "like others"
+            )
         if isinstance(stage, JudgeStage) and role.participants < 2:
             yield f"{name}: one rater alone gives no interval over raters"
 

@@ -21,22 +21,24 @@ class Players(NamedTuple):
     """By their keys in the study's file."""
 
 
-def open_players(plan: StudyPlan, *, trust: bool) -> Players:
+def open_players(plan: StudyPlan, *, trust: bool, opening: Opening | None = None) -> Players:
     """Opens what a study names.
 
     Args:
         plan: The study's.
-        trust: Whether its file may name what runs code.
+        trust: Whether its file may name a task that runs code.
+        opening: How its robots are opened; by default likewise.
 
     Raises:
         UserError: There is no such task or robot, or it runs code and is not trusted.
     """
     if ":" in plan.task and not trust:
         raise UserError(
-            f"the study's task {plan.task!r} runs code: say --trust if you trust whoever wrote it"
+            f"the study's task {plan.task!r} runs code: say --trust if you trust whoever wrote the "
+            "study"
         )
     task = make_task(plan.task)
-    opening = Opening(trust=trust, named_by_user=trust)
+    opening = opening or Opening(trust=trust, named_by_user=trust)
     robots = {
         key: load_policy(spec, task=task, agent="robot", opening=opening)
         for key, spec in plan.robots.items()

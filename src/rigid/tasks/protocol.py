@@ -57,9 +57,9 @@ class Summary(NamedTuple):
     outcome: Int[np.ndarray, " B"]
     """Index into `Task.outcome_names`."""
     peak_force: Float[np.ndarray, " B"]
-    """Largest force of the robot on the person [N]."""
+    """Largest force of the robot on the person [N]; NaN where the task knows no forces."""
     impulse: Float[np.ndarray, " B"]
-    """Force of the robot on the person, integrated over the episode [N s]."""
+    """Force of the robot on the person, integrated over the episode [N s]; NaN likewise."""
     extra: Mapping[str, np.ndarray]
     """Whatever else the task counts."""
 

@@ -11,6 +11,7 @@ from benchmarks.ablations.plan import Sizes
 from benchmarks.ablations.sizes import by_discriminator, by_referee, settled
 from rigid.naturalness.lsgan import DiscriminatorSettings
 from rigid.naturalness.views import all_sound
+from tests.compute.tiny import hasten_referees
 
 SIZES = Sizes(episodes=(10, 20), repeats=1, iterations=4, train=20, validation=10, test=20)
 
@@ -34,7 +35,8 @@ def test_a_reading_settles_where_no_later_one_is_far_from_the_last():
 
 
 @pytest.mark.parametrize("episodes", [10, 20])
-def test_both_judges_pass_a_canonical_human_and_hold_back_another(episodes):
+def test_both_judges_pass_a_canonical_human_and_hold_back_another(episodes, monkeypatch):
+    hasten_referees(monkeypatch, "benchmarks.ablations.sizes", block=50, blocks=2)
     for shift, least, most in ((0.0, 0.9, 1.0), (6.0, 0.0, 0.05)):
         key = jax.random.key(0)
         discriminator = by_discriminator(

@@ -18,7 +18,7 @@ FILES = {
 def prediction(*arguments):
     return subprocess.run(
         [sys.executable, "-m", "benchmarks.prediction", *map(str, arguments)],
-        cwd=ROOT, capture_output=True, text=True, check=False,
+        cwd=ROOT, capture_output=True, text=True, check=False, timeout=300,
     )  # fmt: skip
 
 

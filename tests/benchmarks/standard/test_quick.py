@@ -45,5 +45,7 @@ def test_what_cannot_be_read_is_refused_before_any_work(capsys, arguments, messa
 
 def test_make_help_lists_it():
     command = [shutil.which("make"), "help"]
-    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    listed = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=60
+    )
     assert "\nbench-standard  holds preset standard against preset paper" in listed.stdout

@@ -142,6 +142,7 @@ def test_scripted_raters_are_a_pilot_and_no_finding(tmp_path):
     found = analyzed(data, tmp_path / "out")
     assert found["judged"][0]["of"] == "scripted"
     assert any("a pilot, no finding" in note for note in found["notes"])
+    assert found["unmeasured"] == []  # Nobody met the robot.
     assert "nobody but scripts took part" in (tmp_path / "out" / "study.html").read_text()
 
 

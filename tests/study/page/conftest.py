@@ -70,6 +70,10 @@ class PatientEngine(Engine):
         super().__init__(TASK, robots)
         self.robots, self.go = robots, threading.Event()
 
+    async def step(self, work, *args, **kwargs):
+        """On a thread, whatever the robot: the server goes on while an episode waits."""
+        return await self.do(work, *args, **kwargs)
+
     def episode(self, robot: str, seed: int) -> PlayedEpisode:
         return Patient(TASK, self.robots[robot], seed=seed, go=self.go)
 
@@ -161,7 +165,8 @@ def invite(tmp_path_factory) -> Iterator:
             texts=texts_of("en"), scene=embed_json(TASK.scene()).encode(), address=address,
         )  # fmt: skip
         server = server_of(service)
-        thread = threading.Thread(target=asyncio.run, args=(server.serve(sockets=[opened]),))
+        serving = server.serve(sockets=[opened])
+        thread = threading.Thread(target=asyncio.run, args=(serving,), daemon=True)
         thread.start()
 
         def invited(role: str) -> Invited:
@@ -172,7 +177,8 @@ def invite(tmp_path_factory) -> Iterator:
             yield invited
         finally:
             server.should_exit = True
-            thread.join()
+            thread.join(timeout=60)
+            assert not thread.is_alive(), "the server does not end"
             service.close()
 
 

@@ -107,6 +107,39 @@ def drag(page) -> None:
 
 
 @pytest.mark.slow
+def test_one_finger_moves_the_hand_and_two_that_part_bring_it_closer(invite, visit):
+    participant = invite("player").ready()
+    with visit(participant, has_touch=True, is_mobile=True) as page:
+        fingers = page.context.new_cdp_session(page)
+        card(page, "Episode 1 of 2")
+        with participant.held():
+            act(page, "touch")
+            act(page, "start")
+            running(page)
+            slide(fingers, lambda share: [(160 + 40 * share, 200 - 60 * share)])
+            until(page, lambda: page.targets)
+            up = page.targets[-1]
+            slide(fingers, lambda share: [(140 - 60 * share, 200), (180 + 60 * share, 200)])
+            until(page, lambda: np.linalg.norm(np.subtract(page.targets[-1], up)) > 0.05)
+        card(page, "Episode 2 of 2")
+    (record,) = participant.episodes()
+    assert record.device == "touch"
+    targets = record.arrays.targets
+    assert up[2] > targets[0, 2] + 0.05
+    assert targets[-1, 1] < up[1] - 0.03  # Towards the eye: the person looks along −y, to us.
+    np.testing.assert_array_equal(replayed(record), record.arrays.states)
+
+
+def slide(fingers, at) -> None:
+    """Puts fingers down, moves them from share 0 to 1 of a way, and takes them off."""
+    for step in range(9):
+        points = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(at(step / 8))]
+        kind = "touchMove" if step else "touchStart"
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    fingers.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+@pytest.mark.slow
 def test_a_session_by_keyboard_alone(invite, visit):
     participant = invite("novice")
     with visit(participant) as page:

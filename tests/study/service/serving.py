@@ -189,11 +189,13 @@ def served(
             address=address,
         )  # fmt: skip
         server = server_of(service)
-        thread = threading.Thread(target=asyncio.run, args=(server.serve(sockets=[opened]),))
+        serving = server.serve(sockets=[opened])
+        thread = threading.Thread(target=asyncio.run, args=(serving,), daemon=True)
         thread.start()
         try:
             yield Served(service, address)
         finally:
             server.should_exit = True
-            thread.join()
+            thread.join(timeout=60)
+            assert not thread.is_alive(), "the server does not end"
             service.close()

@@ -1,6 +1,11 @@
 """Live play over real WebSockets, on real physics."""
 
+import socket
+import time
+from contextlib import contextmanager
+
 import numpy as np
+import pytest
 
 from rigid.study.play.episode import FAULTED, PlayedEpisode
 from rigid.study.play.frame import Frame
@@ -118,6 +123,56 @@ def test_a_second_window_ends_the_episode_of_the_first(lasting):
     with page.live() as first:
         first.start()
         first.hear()
+        with page.live() as second:
+            second.start()
+            assert second.hear()["number"] == 0
+    assert attempts(lasting, page) == 2
+
+
+@contextmanager
+def deaf(page):
+    """A window that begins an episode, and then neither reads nor says anything."""
+    port = int(page.address.rpartition(":")[2])
+    with socket.socket() as raw:
+        raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1)  # The smallest that there is.
+        raw.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, 536)
+        raw.connect(("127.0.0.1", port))
+        raw.sendall(
+            f"GET /p/{page.token}/live HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
+            "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+            "Sec-WebSocket-Version: 13\r\n\r\n".encode()
+        )
+        while not raw.recv(1024).endswith(b"\r\n\r\n"):
+            pass
+        said = b'{"type":"start","n":1,"device":"mouse"}'
+        raw.sendall(bytes([0x81, 0x80 | len(said)]) + bytes(4) + said)  # Masked with zeros.
+        yield raw
+
+
+def given_up(server, page):
+    """Waits until the server has found out that a page takes nothing."""
+    deadline = time.monotonic() + 60
+    while (
+        (one := server.service.live.get(page.code)) is None
+        or one._playing is None
+        or not one._playing.done()
+    ):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def few_bytes(monkeypatch):
+    """Nothing waits for who does not read, so that they are found out at once."""
+    monkeypatch.setattr("rigid.study.service.protocols.UNREAD_BYTES", 1)
+    monkeypatch.setattr("rigid.study.service.live.SEND_SECONDS", 0.1)
+
+
+@pytest.mark.usefixtures("few_bytes")
+def test_a_second_window_need_not_wait_for_a_first_that_is_out_of_reach(lasting):
+    page = lasting.page()
+    with deaf(page):
+        given_up(lasting, page)
         with page.live() as second:
             second.start()
             assert second.hear()["number"] == 0

@@ -51,7 +51,7 @@ def killed(tmp_path_factory):
     server.send_signal(signal.SIGKILL)
     said += [line.split() for line in server.stdout.read().splitlines()]
     server.stdout.close()
-    assert server.wait() == -signal.SIGKILL
+    assert server.wait(timeout=60) == -signal.SIGKILL
     return data, [words for words in said if len(words) == 2]
 
 
@@ -114,5 +114,5 @@ print("whole")
         for number in range(40):
             trial = f"t{number:02}"
             store.add_answers([toy_answer(code, trial, of=of) for of in ("first", "second")])
-        assert process.communicate()[0] == "whole\n"
+        assert process.communicate(timeout=120)[0] == "whole\n"
     assert process.returncode == 0

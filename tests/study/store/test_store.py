@@ -289,7 +289,7 @@ def test_threads_share_a_store(store):
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join()
+        thread.join(timeout=60)
     assert len(store.answers()) == 40
 
 

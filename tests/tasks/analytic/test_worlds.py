@@ -31,6 +31,12 @@ def test_they_are_tasks_that_can_be_built_again(name):
     assert task_from_description(task.describe()).describe() == task.describe()
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_their_forces_are_unknown(name):
+    summary = make_task(name).make_world(2).summary()
+    assert np.isnan([summary.peak_force, summary.impulse]).all()
+
+
 def test_a_hand_over_by_hand():
     """The third hand goes no further than 8; the robot of the last one is in the way."""
     human, robot = np.array([[0.25], [0.375], [2.0], [0.375]]), np.zeros((4, 1))

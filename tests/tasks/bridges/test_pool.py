@@ -94,7 +94,7 @@ def test_a_killed_process_is_noticed():
     world = task.make_world(BATCH, threads=2)
     world.reset(np.arange(BATCH))
     os.kill(task._pool._workers[0]._process.pid, signal.SIGKILL)
-    task._pool._workers[0]._process.join()
+    task._pool._workers[0]._process.join(timeout=30)
     with pytest.raises(UserError, match="a process that steps its environments was killed"):
         world.step(*np.zeros((2, BATCH, 1)))
 
@@ -103,7 +103,7 @@ def test_a_new_world_after_a_killed_process_has_a_new_one():
     task = make_task(f"{HERE}:two")
     expected = play(task, 2)
     os.kill(task._pool._workers[1]._process.pid, signal.SIGKILL)
-    task._pool._workers[1]._process.join()
+    task._pool._workers[1]._process.join(timeout=30)
     np.testing.assert_array_equal(play(task, 2), expected)
 
 
@@ -131,10 +131,11 @@ def test_whatever_goes_wrong_in_a_process_is_told_to_whoever_asked(monkeypatch):
     answers = []
 
     def ask():
-        for _ in range(2):  # It still answers after an error.
-            ours.send(("reset", (0, np.arange(2))))
-            answers.append(ours.recv())
-        ours.close()
+        with ours:  # Its end ends `serve`.
+            for _ in range(2):  # It still answers after an error.
+                ours.send(("reset", (0, np.arange(2))))
+                if ours.poll(30):
+                    answers.append(ours.recv())
 
     def opener():
         raise KeyError("agent")
@@ -142,7 +143,7 @@ def test_whatever_goes_wrong_in_a_process_is_told_to_whoever_asked(monkeypatch):
     asking = threading.Thread(target=ask)
     asking.start()
     serve(theirs, opener, "task", Sizes(1, 1, 1))
-    asking.join()
+    asking.join(timeout=30)
     theirs.close()
     assert [rows for _, rows in answers] == [None, None]
     assert all(error.startswith("task: KeyError: 'agent' (") for error, _ in answers)
@@ -172,7 +173,7 @@ def test_processes_end_with_their_parent():
     parent = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     workers = [int(word) for word in parent.stdout.readline().split()]
     parent.kill()
-    parent.wait()
+    parent.wait(timeout=30)
     parent.stdout.close()
     assert len(workers) == 2
     for _ in range(300):

@@ -5,6 +5,8 @@ import { readClip, readScene, type Clip, type Scene } from "../replay/clip.js";
 import { Refused, type Api, type State } from "./context.js";
 
 const WAITS = [500, 1000, 2000, 4000]; // [ms] between tries; the last one for ever. Ours.
+/** Within so long [ms] even a slow line has brought an answer; a line that is cut brings none. Ours. */
+const LONGEST = 60_000;
 const BUSY = new Set([429, 502, 503, 504]);
 
 /** Reads a state; whatever is missing has a harmless value. */
@@ -15,6 +17,7 @@ export function readState(value: unknown): State {
     title: text(raw["title"]),
     language: text(raw["language"], "en"),
     participant: { code: text(participant["code"]), role: text(participant["role"]) },
+    before: list(raw["before"]).map((kind) => text(kind)),
     stages: list(raw["stages"]).map((entry, index) => {
       const stage = dict(entry);
       return { kind: text(stage["kind"]), index: number(stage["index"]) ?? index };
@@ -74,22 +77,23 @@ export class Server implements Api {
       const answer = await this.#try(`${this.#base}/api/${route}`, init);
       if (answer) {
         this.reached.value = true;
-        return answer.json();
+        return answer.said;
       }
       if (attempt > 0) this.reached.value = false;
       await new Promise((go) => setTimeout(go, WAITS[Math.min(attempt, WAITS.length - 1)]));
     }
   }
 
-  /** The answer; null where there was none, or the server is busy. */
-  async #try(url: string, init: RequestInit): Promise<Response | null> {
+  /** The answer, all of it; null where there was none, or the server is busy. */
+  async #try(url: string, init: RequestInit): Promise<{ readonly said: unknown } | null> {
     let answer: Response;
     try {
-      answer = await fetch(url, { ...init, cache: "no-store", credentials: "same-origin" });
+      const signal = AbortSignal.timeout(LONGEST);
+      answer = await fetch(url, { ...init, signal, cache: "no-store", credentials: "same-origin" });
+      if (answer.ok) return { said: await answer.json() };
     } catch {
       return null;
     }
-    if (answer.ok) return answer;
     if (BUSY.has(answer.status)) return null;
     const told = dict(await answer.json().catch(() => null));
     throw new Refused(answer.status, text(told["error"], "refused"), text(told["message"], answer.statusText));

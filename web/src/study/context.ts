@@ -33,6 +33,8 @@ export interface State {
   readonly title: string;
   readonly language: string;
   readonly participant: { readonly code: string; readonly role: string };
+  /** Kinds of what comes before the stages. */
+  readonly before: readonly string[];
   readonly stages: readonly { readonly kind: string; readonly index: number }[];
   /** Its `kind` says which screen it is; the screen reads the rest (`base/read.ts`). */
   readonly stage: Dict;

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from importlib import resources
-from string import Template
 
 from rigid.frontier.intervals import Interval
 from rigid.frontier.standings import TITLES
-from rigid.report.comparison import safe
+from rigid.report.plain_page import plain_page, safe, table
 from rigid.study.analysis.counting import Control, Count
 from rigid.study.analysis.figures import drawings, inline
 from rigid.study.analysis.judgements import Judged, ScoreFindings
@@ -49,8 +48,9 @@ def study_page(analysis: Analysis) -> str:
     drawn = {name: inline(draw) for name, draw in drawings(analysis)}
     figures = list(drawn.values())
     robots, judged = figures[: len(analysis.met)], figures[len(analysis.met) :]
-    return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        title=safe(f"{analysis.title} · RIGID"),
+    return plain_page(
+        _TEMPLATE,
+        title=f"{analysis.title} · RIGID",
         facts=safe(_facts(analysis)),
         stamps="".join(f'<p class="stamp">{safe(stamp)}</p>' for stamp in _stamps(analysis)),
         findings=_list(sentences(analysis)),
@@ -209,22 +209,6 @@ def _models(fits: Iterable[tuple[str, OrdinalFit]]) -> str:
         "R-hat", "effective samples", "refused",
     )  # fmt: skip
     return table(heads, rows, text=(8,))
-
-
-def table(heads: Iterable[str], rows: Iterable[Sequence[str]], text: Sequence[int] = ()) -> str:
-    """A table of cells that are HTML; columns in `text` hold words. The keyboard can scroll it."""
-
-    def line(cells: Iterable[str], element: str) -> str:
-        marked = (
-            f"<{element}{' class=text' if place in text else ''}>{cell}</{element}>"
-            for place, cell in enumerate(cells)
-        )
-        return f"<tr>{''.join(marked)}</tr>"
-
-    head = line(map(safe, heads), "th")
-    body = "\n".join(line(row, "td") for row in rows)
-    whole = f"<table><thead>{head}</thead>\n<tbody>\n{body}\n</tbody></table>"
-    return f'<div class="wide" tabindex="0">{whole}</div>'
 
 
 def _list(lines: Sequence[str]) -> str:

@@ -27,7 +27,7 @@ class Analysis:
     task: str
     robots: Mapping[str, MeasuredRobot]
     unmeasured: tuple[str, ...]
-    """Robots of the study of which no run was named."""
+    """Robots that somebody met and of which no run was named."""
     placed: tuple[Placed, ...]
     controls: tuple[Control, ...]
     counts: tuple[Count, ...]
@@ -66,6 +66,7 @@ def analyse(
         say: Told of progress.
     """
     players = players_of(study.episodes, study.participants)
+    met = {player.robot for player in players}
     placed: list[Placed] = []
     controls: list[Control] = []
     counts: list[Count] = []
@@ -80,7 +81,7 @@ def analyse(
     roles = [p.role for p in took_part if p.kind == "person"]
     return Analysis(
         title=study.plan.title, task=study.plan.task, robots=robots,
-        unmeasured=tuple(key for key in study.plan.robots if key not in robots),
+        unmeasured=tuple(key for key in study.plan.robots if key in met and key not in robots),
         placed=tuple(placed), controls=tuple(controls), counts=tuple(counts),
         judged=_judged(study, questionnaires, settings, say),
         order=robot_order(robots, placed, settings),

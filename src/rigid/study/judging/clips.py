@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -15,7 +15,7 @@ from rigid.study.judging.clip_names import ClipName
 from rigid.study.judging.kept import KeptClips
 from rigid.study.judging.motion import motion_text
 from rigid.study.judging.pair_motions import PairMotions
-from rigid.study.judging.questionnaire import questionnaire
+from rigid.study.judging.questionnaire import judge_stages, questionnaire
 from rigid.study.judging.trials import Trial, clips_of, preview_trials, trials_for
 from rigid.study.plan import JudgeStage, StudyPlan, WatchStage
 from rigid.study.records import Participant
@@ -95,14 +95,9 @@ def prepare_clips(
     kept = KeptClips(data / "clips")
     canonical = _canonical(plan, task, robots, kept, say)
     judged: dict[ClipName, bytes] = {}
-    for stage in _questionnaires(plan):
+    for stage in judge_stages(plan):
         judged.update(_judged(stage, task, robots, kept, say))
     return Clips(plan, canonical, judged)
-
-
-def _questionnaires(plan: StudyPlan) -> Iterator[JudgeStage]:
-    for role in plan.roles.values():
-        yield from (stage for stage in role.stages if isinstance(stage, JudgeStage))
 
 
 def _judged(

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 from rigid.data.pair_file import Pair, PairFile, file_hash, load_pairs
 from rigid.errors import UserError
-from rigid.study.plan import JudgeQuestion, JudgeStage
+from rigid.study.plan import JudgeQuestion, JudgeStage, StudyPlan
 
 KINDS: Mapping[JudgeQuestion, str] = {
     "correspondence": "faithfulness",
@@ -69,6 +69,12 @@ def questionnaire(stage: JudgeStage) -> Questionnaire:
         stage.question, stage.show, stage.count, file, stage.pairs, file_hash(stage.pairs),
         _checks(stage, file.pairs[: stage.count]),
     )  # fmt: skip
+
+
+def judge_stages(plan: StudyPlan) -> Iterator[JudgeStage]:
+    """All questionnaires of a plan."""
+    for role in plan.roles.values():
+        yield from (stage for stage in role.stages if isinstance(stage, JudgeStage))
 
 
 def _checks(stage: JudgeStage, pairs: tuple[Pair, ...]) -> tuple[Check, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -20,7 +21,7 @@ from rigid.study.pilot.server import Running, pilot_server
 from rigid.study.plan import StudyPlan, load_plan
 from rigid.study.players import open_players
 from rigid.study.store import Store
-from rigid.study.store.schema import FILE
+from rigid.study.store.schema import FILE, forget
 from rigid.tasks.protocol import Task, control_period
 
 
@@ -66,8 +67,7 @@ def run_pilot(order: PilotOrder, begin: Begin) -> tuple[Found, ...]:
     plan = load_plan(order.study)
     players = open_players(plan, trust=order.trust)
     tick = begin(_ahead(plan, players.task, order))
-    serving = pilot_server(order.study, order.data, speed=order.speed, trust=order.trust)
-    with serving as server, Store.read(order.data) as store:
+    with _serving(order) as server, Store.read(order.data) as store:
         people = [
             Scripted(
                 code=code, role=role, script=order.scripts[number % len(order.scripts)],
@@ -85,6 +85,20 @@ def run_pilot(order: PilotOrder, begin: Begin) -> tuple[Found, ...]:
         return tuple(
             check_participant(plan, players, store, who.code, failures[who.code]) for who in people
         )
+
+
+@contextmanager
+def _serving(order: PilotOrder) -> Iterator[Running]:
+    """The server; one that does not start leaves no study in the way of the next pilot."""
+    with ExitStack() as running:
+        try:
+            server = running.enter_context(
+                pilot_server(order.study, order.data, speed=order.speed, trust=order.trust)
+            )
+        except UserError:
+            forget(order.data)
+            raise
+        yield server
 
 
 async def _all(people: Sequence[Scripted]) -> Mapping[str, str | None]:

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from rigid.study.judging.questions import HIGHEST, SIDES, asked
+from rigid.study.judging import Trial, trials_for
+from rigid.study.judging.questions import HIGHEST, SIDES, Side, asked
 from rigid.study.pilot.hand import play_stage
 from rigid.study.pilot.page import Page
 from rigid.study.plan import JudgeQuestion, StudyPlan
@@ -76,13 +77,14 @@ class Scripted:
 
     async def _judge(self, stage: Mapping[str, Any]) -> _State:
         state: _State = {}
+        who = self.store.participant(self.code)
+        known = {trial.id: trial for trial in trials_for(self.plan, stage["index"], who)}
         for trial in stage["trials"]:
-            shown = {
-                who: await self._get(f"clip/{trial[who]}")
-                for who in ("left", "right", "reference")
-                if who in trial
-            }
-            responses = random_answers(stage["question"], shown, self.rng)
+            for motion in ("left", "right", "reference"):
+                if motion in trial:
+                    await self._get(f"clip/{trial[motion]}")
+            itself = reference_side(known[trial["id"]])
+            responses = random_answers(stage["question"], itself, self.rng)
             state = await self._post("answer", {
                 "stage": stage["index"], "trial": trial["id"], "responses": responses,
                 "rt": round(float(self.rng.uniform(2, 20)), 1),
@@ -99,21 +101,28 @@ class Scripted:
         return found
 
 
+def reference_side(trial: Trial) -> Side | None:
+    """Where the reference itself stands in an attention check; None in any other trial."""
+    if trial.pair is not None:
+        return None
+    return "left" if trial.shown_left == "second" else "right"
+
+
 def random_answers(
-    question: JudgeQuestion, shown: Mapping[str, Any], rng: np.random.Generator
+    question: JudgeQuestion, itself: Side | None, rng: np.random.Generator
 ) -> dict[str, Any]:
-    """Answers to a trial at random, but for what is the reference itself: scripts pay attention.
+    """Answers to a trial at random, but right ones to attention checks: scripts pay attention.
 
     Args:
         question: Of the questionnaire.
-        shown: What stands on the left and right and, except for danger, as the reference.
+        itself: `reference_side` of the trial.
         rng: Draws them.
     """
-    itself = [side for side in SIDES if shown[side] == shown.get("reference")]
     if question == "correspondence":
-        return {question: itself[0] if itself else str(rng.choice(SIDES))}
+        return {question: itself or str(rng.choice(SIDES))}
     answers = {name: int(rng.integers(HIGHEST)) for name in asked(question)}
-    return {**answers, **{f"naturalness-{side}": HIGHEST for side in itself}}
+    best = {f"naturalness-{itself}": HIGHEST, f"goal-{itself}": HIGHEST, f"danger-{itself}": 0}
+    return {name: best.get(name, answer) for name, answer in answers.items()}
 
 
 def random_fact(question: Mapping[str, Any], rng: np.random.Generator) -> Any:

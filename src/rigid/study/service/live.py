@@ -6,7 +6,6 @@ import asyncio
 import datetime as dt
 import json
 import logging
-import math
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any, Final
@@ -14,16 +13,15 @@ from typing import Any, Final
 from starlette.responses import PlainTextResponse
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from rigid.study.flow import NextEpisode, Position
-from rigid.study.play.episode import Played, PlayedEpisode
-from rigid.study.play.frame import Frame, frame_bytes
-from rigid.study.records import Participant, PlayedRecord
+from rigid.study.play.frame import frame_bytes
+from rigid.study.records import Participant
 from rigid.study.service.context import Service
 from rigid.study.service.messages import Begin, Halt, LiveMessage, Ping, Target, read_live
 from rigid.study.service.paced import Hand, play_paced
 from rigid.study.service.refusing import Refusal
 from rigid.study.service.requests import participant_of, service_of
 from rigid.study.service.state import standpoint
+from rigid.study.service.told import acknowledgement, announcement, record_of
 from rigid.study.store import ConflictError, GoneError
 
 BAD_TOKEN: Final = 4401
@@ -75,19 +73,16 @@ class LiveConnection:
         self._whole = False
         """Whether all steps are done, so that the episode is stored, come what may."""
         self._leaving = False
+        self._reading: asyncio.Task[None] | None = None
         self.ended = asyncio.Event()
         """Set once nothing of this connection goes on, nor writes, any more."""
 
     async def serve(self) -> None:
         """Reads messages until the connection ends, one way or the other."""
+        self._reading = asyncio.create_task(self._read(), name="messages")
         try:
-            while True:
-                message = await self._socket.receive()
-                if message["type"] == "websocket.disconnect":
-                    return
-                if self._leaving or not await self._heard(message):
-                    return
-        except (WebSocketDisconnect, TimeoutError):
+            await self._reading
+        except (WebSocketDisconnect, TimeoutError, asyncio.CancelledError):  # Gone, or left.
             return
         finally:
             await self._abandon()
@@ -97,10 +92,20 @@ class LiveConnection:
         self._leaving = True
         await self._abandon()
         await self._close(code, reason)
+        if self._reading is not None:  # Who went without a word would keep it waiting.
+            self._reading.cancel()
         await self.ended.wait()
+
+    async def _read(self) -> None:
+        while not self._leaving:
+            message = await self._socket.receive()
+            if message["type"] == "websocket.disconnect" or not await self._heard(message):
+                return
 
     async def _heard(self, message: Any) -> bool:
         """One message; False where the connection is to end."""
+        if self._leaving:
+            return False
         service, code = self._service, self._participant.code
         if not service.rates.messages.take(code, service.clock()):
             service.refusals.count("live", "too-many")
@@ -158,11 +163,9 @@ class LiveConnection:
         try:
             await self._play_next(wish)
         except Refusal as refusal:
-            self._service.refusals.count("live", refusal.code)
-            await self._say({"type": "refused", "reason": refusal.code})
+            await self._refuse(refusal.code)
         except (GoneError, ConflictError):  # They stopped, or withdrew, while it ran.
-            self._service.refusals.count("live", "not-now")
-            await self._say({"type": "refused", "reason": "not-now"})
+            await self._refuse("not-now")
         except (WebSocketDisconnect, TimeoutError):
             await self._close(FAULT, "nothing is read")
         except Exception:  # noqa: BLE001 - nobody's episode may be another's problem.
@@ -184,7 +187,7 @@ class LiveConnection:
         first = await service.engine.do(episode.begin)
         self._hand.forget()
         started = dt.datetime.now(dt.UTC).isoformat(timespec="milliseconds")
-        await self._say(_announcement(where, following, episode, first))
+        await self._say(announcement(where, following, episode, first))
         await self._send(frame_bytes(first))
         last = await play_paced(
             service.engine, episode, first, self._hand, self._send,
@@ -195,11 +198,17 @@ class LiveConnection:
             with suppress(WebSocketDisconnect, TimeoutError):
                 await self._send(last)
             played = await service.engine.do(episode.finish)
-            record = _record(self._participant, following, wish, played, attempts, started)
+            record = record_of(self._participant, following, wish, played, attempts, started)
             await service.desk.do(store.add_episode, record, where.index)
         finally:
             self._whole = False
-        await self._say(_acknowledgement(where, following, played))
+        await self._say(acknowledgement(where, following, played))
+
+    async def _refuse(self, code: str) -> None:
+        """Tells that an episode is not begun or not kept, if anybody is there."""
+        self._service.refusals.count("live", code)
+        with suppress(WebSocketDisconnect, TimeoutError):
+            await self._say({"type": "refused", "reason": code})
 
     async def _say(self, message: dict[str, Any]) -> None:
         text = json.dumps(message, allow_nan=False)
@@ -217,47 +226,12 @@ class LiveConnection:
         """
         if self._socket.application_state is not WebSocketState.CONNECTED:
             raise WebSocketDisconnect(1006)
-        async with asyncio.timeout(SEND_SECONDS):
-            await send()
+        try:
+            async with asyncio.timeout(SEND_SECONDS):
+                await send()
+        except RuntimeError:  # uvicorn's, where its own ping found nobody: it is closing already.
+            raise WebSocketDisconnect(1006) from None
 
     async def _close(self, code: int, reason: str) -> None:
         with suppress(WebSocketDisconnect, TimeoutError):
             await self._within(lambda: self._socket.close(code, reason))
-
-
-def _announcement(
-    where: Position, following: NextEpisode, episode: PlayedEpisode, first: Frame
-) -> dict[str, Any]:
-    """What the page needs to draw an episode and to aim."""
-    return {
-        "type": "episode", "kind": following.kind, "number": following.number, "of": where.of,
-        "bodies": list(episode.bodies), "substeps": episode.substeps, "period": episode.period,
-        "horizon": episode.horizon, "goal": episode.goal, "reach": episode.reach,
-        "hand": [float(value) for value in first.hand],
-    }  # fmt: skip
-
-
-def _acknowledgement(where: Position, following: NextEpisode, played: Played) -> dict[str, Any]:
-    """Said once the episode is on disk."""
-    success = None if math.isnan(played.success) else bool(played.success)
-    return {
-        "type": "finished", "number": following.number, "success": success,
-        "done": where.done + 1, "of": where.of,
-    }  # fmt: skip
-
-
-def _record(
-    participant: Participant,
-    following: NextEpisode,
-    wish: Begin,
-    played: Played,
-    attempts: int,
-    started: str,
-) -> PlayedRecord:
-    return PlayedRecord(
-        participant=participant.code, number=following.number, kind=following.kind,
-        role=participant.role, robot=following.robot, device=wish.device, seed=following.seed,
-        attempts=attempts, episode_return=played.episode_return, success=played.success,
-        outcome=played.outcome, peak_force=played.peak_force, impulse=played.impulse,
-        started=started, about_device=wish.about, arrays=played.arrays,
-    )  # fmt: skip

@@ -12,6 +12,7 @@ from rigid.errors import UserError
 from rigid.policies.protocol import Policy
 from rigid.report.build import embed_json
 from rigid.study.judging import prepare_clips
+from rigid.study.judging.questionnaire import judge_stages, questionnaire
 from rigid.study.plan import StudyPlan
 from rigid.study.registration import register_study
 from rigid.study.service.context import Service
@@ -52,6 +53,8 @@ def open_service(
     static, texts = front_end(), texts_of(plan.language)
     engine = Engine(task, robots)
     engine.episode(next(iter(robots)), plan.seed).begin()  # Refuses tasks that nobody can play.
+    for stage in judge_stages(plan):
+        questionnaire(stage)  # Pairs that are missing are told before anything is stored.
     mend_exports(data)
     register_study(store, plan, task=task, robots=robots)
     clips = prepare_clips(plan, data, task=task, robots=robots, say=say)

@@ -21,6 +21,8 @@ HEADER_SECONDS: Final = 10.0
 """How long the head of a request may take to arrive [s], so that drops hold no line. Ours."""
 _PINGS: Final = Rate(20, 2)
 """Ping frames, which the application does not see. Ours: browsers send none."""
+UNREAD_BYTES: Final = 64 * 1024
+"""Frames that wait for who does not read: half a second of an episode at most. Ours."""
 
 
 class CountingHTTP(H11Protocol):
@@ -106,8 +108,7 @@ class CountingWebSocket(WebSocketsSansIOProtocol):
     def connection_made(self, transport: BaseTransport) -> None:
         """The connection of an HTTP request becomes a WebSocket."""
         if isinstance(transport, Transport):
-            # Frames for who does not read wait here: half a second of an episode at most.
-            transport.set_write_buffer_limits(high=64 * 1024)
+            transport.set_write_buffer_limits(high=UNREAD_BYTES)
         super().connection_made(transport)
         self._of = network(self.client[0] if self.client else None)
 
@@ -121,6 +122,16 @@ class CountingWebSocket(WebSocketsSansIOProtocol):
         super().handle_connect(event)
         if self.response.status_code != 101:
             self._refusals.count("wire", "bad-handshake")
+
+    def keepalive_timeout(self) -> None:
+        """No answer to a ping: nobody is there who could take what is left to be sent."""
+        super().keepalive_timeout()
+        self.transport.abort()
+
+    async def run_asgi(self) -> None:
+        """Serves the connection; who does not read the end of it is cut off in the end."""
+        await super().run_asgi()
+        self.loop.call_later(self.close_timeout, self.transport.abort)
 
     def handle_ping(self) -> None:
         """A ping came; it was answered already, and the answer waits to be sent."""

@@ -42,6 +42,7 @@ def state_of(plan: StudyPlan, store: Store, code: str) -> dict[str, Any]:
     stages = plan.roles[participant.role].stages
     return {
         **_frame(plan, participant),
+        "before": ["consent", *(["demographics"] if plan.demographics else [])],
         "stages": [{"kind": stage.kind, "index": i} for i, stage in enumerate(stages)],
         "stage": _stage(plan, participant, position),
         "can_stop": position.kind not in {"done", "stopped"},
@@ -51,7 +52,13 @@ def state_of(plan: StudyPlan, store: Store, code: str) -> dict[str, Any]:
 def withdrawn_state(plan: StudyPlan, participant: Participant) -> dict[str, Any]:
     """The last state of somebody who is deleted."""
     stage = {"kind": "withdrawn"}
-    return {**_frame(plan, participant), "stages": [], "stage": stage, "can_stop": False}
+    return {
+        **_frame(plan, participant),
+        "before": [],
+        "stages": [],
+        "stage": stage,
+        "can_stop": False,
+    }
 
 
 def _frame(plan: StudyPlan, participant: Participant) -> dict[str, Any]:

@@ -129,6 +129,12 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
         return db
 
 
+def forget(data: Path) -> None:
+    """Removes a study that was just made and holds nothing yet."""
+    for name in (FILE, f"{FILE}-wal", f"{FILE}-shm", LOCK):
+        (data / name).unlink(missing_ok=True)
+
+
 @contextmanager
 def told(path: Path) -> Iterator[None]:
     """Turns what SQLite and the file system refuse into a message.

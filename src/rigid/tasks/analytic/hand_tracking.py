@@ -115,11 +115,9 @@ class HandTrackingWorld:
         return self._look(pair)
 
     def summary(self) -> Summary:
-        """The task defines no success."""
-        nothing = np.zeros(self.batch)
-        return Summary(
-            np.full(self.batch, np.nan), np.zeros(self.batch, np.int64), nothing, nothing, {}
-        )
+        """The task defines neither success nor forces."""
+        unknown = np.full(self.batch, np.nan)
+        return Summary(unknown, np.zeros(self.batch, np.int64), unknown, unknown, {})
 
     def snapshot(self) -> Float[np.ndarray, "B 0"]:
         """Nothing to show."""

@@ -120,9 +120,9 @@ class OffsetCatchWorld:
         return self._look(-miss if self._task.cost == "linear" else -self._missed())
 
     def summary(self) -> Summary:
-        """Success is a catch, whatever the cost."""
-        missed, nothing = self._missed(), np.zeros(self.batch)
-        return Summary(1 - missed, missed.astype(np.int64), nothing, nothing, {})
+        """Success is a catch, whatever the cost; there are no forces."""
+        missed, unknown = self._missed(), np.full(self.batch, np.nan)
+        return Summary(1 - missed, missed.astype(np.int64), unknown, unknown, {})
 
     def snapshot(self) -> Float[np.ndarray, "B 0"]:
         """Nothing to show."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
+from itertools import accumulate, pairwise
 from typing import Any
 
 import gymnasium
@@ -25,7 +26,8 @@ class Side:
         for agent in self.agents:
             self._sights[agent] = sight_of(_observation_space(env, agent), f"agent {agent!r}")
             self._deeds[agent] = deed_of(env.action_space(agent), f"agent {agent!r}")
-        self._bounds = np.cumsum([deed.size for deed in self._deeds.values()])[:-1]
+        ends = accumulate(deed.size for deed in self._deeds.values())
+        self._bounds = tuple(pairwise((0, *ends)))
 
     @property
     def spec(self) -> AgentSpec:
@@ -76,7 +78,7 @@ class Side:
         return np.concatenate([deed.shown(part) for deed, part in zip(deeds, parts, strict=True)])
 
     def _parts(self, row: np.ndarray) -> list[np.ndarray]:
-        return np.split(row, self._bounds)
+        return [row[start:end] for start, end in self._bounds]
 
     def _named(self, names: Mapping[Any, tuple[str, ...]]) -> tuple[str, ...]:
         if len(names) == 1:

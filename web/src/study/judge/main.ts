@@ -2,8 +2,8 @@
 import { initJsPsych } from "jspsych";
 import "./judge.css";
 import { h } from "../../base/dom.js";
-import { text } from "../../base/read.js";
-import type { Mount, State, StudyContext } from "../context.js";
+import { text, type Dict } from "../../base/read.js";
+import { Refused, type Mount, type State, type StudyContext } from "../context.js";
 import { sending } from "../screens/sending.js";
 import { prose } from "../words.js";
 import { IntroPlugin, PairPlugin, type Room } from "./plugin.js";
@@ -29,8 +29,22 @@ class Sitting {
   }
 
   async answer(trial: Trial, responses: Readonly<Record<string, unknown>>, rt: number): Promise<void> {
-    this.#state = await this.context.api.post("answer", { stage: this.asks.index, trial: trial.id, responses, rt });
+    this.#state = await this.#sent(trial, { stage: this.asks.index, trial: trial.id, responses, rt });
     for (const key of keysOf(this.left[1])) void this.context.api.clip(key).catch(() => undefined);
+  }
+
+  /** The state after an answer; also where the trial was answered in another window, whose answer stays. */
+  async #sent(trial: Trial, answer: Dict): Promise<State> {
+    const { api } = this.context;
+    try {
+      return await api.post("answer", answer);
+    } catch (error) {
+      const now = error instanceof Refused && error.code === "not-now" ? await api.state() : null;
+      const asked = readQuestionnaire(now?.stage ?? {});
+      const isOpen = asked?.index === this.asks.index && asked.trials.some(({ id }) => id === trial.id);
+      if (now === null || isOpen) throw error;
+      return now;
+    }
   }
 }
 

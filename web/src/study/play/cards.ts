@@ -35,7 +35,7 @@ export function connectionLost(state: State, words: Words): Said {
 /** No way back from here, but into this window where the study is open in another one. */
 export function closed(words: Words, why: "link" | "elsewhere", goOnHere: () => void): Said {
   const here: Action = { id: "here", label: words("play.here"), primary: true, run: goOnHere };
-  return { layout: "card", heading: "", line: words(`play.closed.${why}`), hint: "", actions: why === "elsewhere" ? [here] : [] };
+  return { layout: "card", heading: "", line: words(`play.closed.${why}`), hint: words(`play.closed-hint.${why}`), actions: why === "elsewhere" ? [here] : [] };
 }
 
 export function noHeadset(state: State, words: Words, actions: readonly Action[]): Said {

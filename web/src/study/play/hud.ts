@@ -9,6 +9,8 @@ export interface Action {
   run(): void;
 }
 
+/** Touched again within so long [ms], nothing is read aloud: a robot that scrapes along would never be silent. Ours. */
+const QUIET = 4000;
 /** What is to be seen around the middle [px]. Ours. */
 const AROUND = 40;
 
@@ -37,6 +39,7 @@ export class Hud {
   readonly #top: HTMLElement;
   readonly #bottom: HTMLElement;
   #said: Said | null = null;
+  #warned = -Infinity;
 
   constructor(private readonly announce: (message: string) => void, turns: HTMLElement) {
     this.#top = h("div", { class: "hud top" }, this.#heading,
@@ -89,6 +92,10 @@ export class Hud {
   alert(text: string | null): void {
     this.#alert.hidden = text === null;
     if (text !== null && this.#alert.textContent !== text) this.#alert.textContent = text;
+    if (text !== null && !this.element.classList.contains("touched") && performance.now() - this.#warned > QUIET) {
+      this.#warned = performance.now();
+      this.announce(text);
+    }
     this.element.classList.toggle("touched", text !== null);
   }
 }

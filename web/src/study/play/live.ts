@@ -8,6 +8,8 @@ import type { Reach } from "./target.js";
 /** Between two targets [ms]: twice the control rate; the server takes at most 30 a second. Ours. */
 const TARGET_EVERY = 50;
 const PING_EVERY = 2000; // [ms] Ours.
+/** Pings are answered: after so many without a word the line is cut, whatever the browser thinks of it. Ours. */
+const UNANSWERED = 4;
 const WAITS = [300, 700, 1500, 3000]; // [ms] before another try; the last one for ever. Ours.
 const WRONG_LINK = 4401;
 const ELSEWHERE = 4409;
@@ -67,6 +69,7 @@ export class Live {
   #tries = 0;
   #retry = 0;
   #pings = 0;
+  #unanswered = 0;
   #sent: { at: number; position: Vector } = { at: -Infinity, position: [NaN, NaN, NaN] };
   #over = false;
   /** Of the last ping, there and back [ms]; null before the first. */
@@ -115,19 +118,31 @@ export class Live {
     socket.binaryType = "arraybuffer";
     this.#socket = socket;
     this.#n = 0;
+    this.#unanswered = 0;
+    clearInterval(this.#pings);
+    this.#pings = window.setInterval(() => this.#ping(socket), PING_EVERY);
     socket.addEventListener("open", () => {
       this.#tries = 0;
-      clearInterval(this.#pings);
-      this.#pings = window.setInterval(() => this.#send({ type: "ping", sent: performance.now() }), PING_EVERY);
-      this.#send({ type: "ping", sent: performance.now() });
+      this.#ping(socket);
       this.handlers.connected();
     });
-    socket.addEventListener("message", ({ data }) => this.#take(data as unknown));
+    socket.addEventListener("message", ({ data }) => {
+      this.#unanswered = 0;
+      if (socket === this.#socket) this.#take(data as unknown);
+    });
     socket.addEventListener("close", ({ code }) => this.#closed(socket, code));
+  }
+
+  /** Asks whether the server is there; gives up a connection of which nothing is heard any more. */
+  #ping(socket: WebSocket): void {
+    if (this.#unanswered++ < UNANSWERED) return this.#send({ type: "ping", sent: performance.now() });
+    socket.close();
+    this.#closed(socket, 1006); // The browser would wait much longer for the other side's farewell.
   }
 
   #closed(socket: WebSocket, code: number): void {
     if (this.#over || socket !== this.#socket) return;
+    this.#socket = null;
     clearInterval(this.#pings);
     if (code === WRONG_LINK || code === ELSEWHERE) {
       this.handlers.closed(code === ELSEWHERE ? "elsewhere" : "link");

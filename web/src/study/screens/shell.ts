@@ -55,10 +55,10 @@ export class Shell {
   }
 
   /** Shows where in the study the participant is. */
-  told({ title, stages, stage, canStop }: State): void {
+  told({ title, before, stages, stage, canStop }: State): void {
     const kind = String(stage["kind"]);
-    const all = ["consent", ...stages.map((entry) => entry.kind)];
-    const index = typeof stage["index"] === "number" ? stage["index"] + 1 : 0;
+    const all = [...before, ...stages.map((entry) => entry.kind)];
+    const index = typeof stage["index"] === "number" ? stage["index"] + before.length : Math.max(0, before.indexOf(kind));
     const ended = kind === "done" || kind === "stopped" || kind === "withdrawn";
     this.#title.textContent = title;
     this.#step.textContent = ended ? "" : this.words("shell.step", {
