@@ -1,48 +1,25 @@
-"""Study files: what is read, what is refused and how, and what their hash says."""
+"""Study files: what is read, and what is refused and how."""
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
 
 import pytest
 
 from rigid.errors import UserError
-from rigid.study.overview import advice, overview
 from rigid.study.plan import (
     JudgeStage,
     PlayStage,
     PractiseStage,
     WatchStage,
-    as_written,
     default_plan,
     load_plan,
-    plan_hash,
 )
-from rigid.study.plan_file import copy_of, parse_plan, protocol_names, protocol_text
+from rigid.study.plan_file import parse_plan
+from tests.study.plan_texts import JUDGING, TEXT
 
 ROOT = Path(__file__).parents[2]
-TEXT = """\
-title: Scratching
-robots: {a: "builtin:vanilla"}
-roles:
-  novice:
-    participants: 8
-    stages:
-      - {kind: watch, episodes: 3}
-      - {kind: practise}
-      - {kind: play, episodes: 5, manner: own-way}
-"""
-JUDGING = """\
-title: Judging
-robots: {a: "builtin:vanilla"}
-roles:
-  rater:
-    participants: 15
-    stages:
-      - {kind: judge, question: danger, pairs: pairs/danger.json}
-"""
 
 
 @pytest.fixture
@@ -55,11 +32,6 @@ def message_of(tmp_path):
         return str(error.value)
 
     return read
-
-
-@pytest.fixture
-def parsed(tmp_path):
-    return lambda text: parse_plan(text, where="s.yaml", folder=tmp_path)
 
 
 def test_a_short_file_gets_every_default(parsed):
@@ -221,40 +193,6 @@ def test_paths_begin_at_the_file(tmp_path):
     assert stage.pairs == folder / "pairs" / "danger.json"
 
 
-def test_the_hash_does_not_change_where_the_folder_moves(tmp_path):
-    text = JUDGING.replace("builtin:vanilla", "robots/mine")
-    hashes = {plan_hash(parse_plan(text, where="s.yaml", folder=tmp_path / name)) for name in "ab"}
-    assert len(hashes) == 1
-
-
-def test_the_hash_does_not_change_with_layout_comments_and_spelt_out_defaults(parsed):
-    longer = "# A comment.\nseed: 0\nformat: 1\n" + TEXT.replace(
-        "{kind: practise}", "{episodes: 2, kind: practise}"
-    )
-    assert plan_hash(parsed(longer)) == plan_hash(parsed(TEXT))
-
-
-@pytest.mark.parametrize(
-    "change",
-    [("seed: 0", "seed: 1"), ("episodes: 5", "episodes: 6"), ("vanilla", "palm"),
-     ("version: '1'", "version: '2'")],
-)  # fmt: skip
-def test_the_hash_changes_with_what_the_study_says(parsed, change):
-    text = "seed: 0\nconsent: {version: '1'}\n" + TEXT
-    assert plan_hash(parsed(text.replace(*change))) != plan_hash(parsed(text))
-
-
-def test_the_hash_covers_the_words_of_a_consent_file(tmp_path, parsed):
-    text = TEXT + "consent: {text: consent.md}\n"
-    hashes = set()
-    for words in ("You may stop at any time.", "You may never stop."):
-        (tmp_path / "consent.md").write_text(words)
-        plan = parsed(text)
-        assert plan.consent.text == words
-        hashes.add(plan_hash(plan))
-    assert len(hashes) == 2
-
-
 def test_a_consent_file_that_is_missing_names_the_line(message_of):
     assert message_of(TEXT + "consent: {text: consent.md}\n").endswith(
         "consent.md does not exist: s.yaml, line 10, names it as consent.text: mend the name, or "
@@ -262,59 +200,9 @@ def test_a_consent_file_that_is_missing_names_the_line(message_of):
     )
 
 
-def test_what_is_written_reads_as_the_same_study(parsed):
-    plan = parsed(JUDGING)
-    assert plan_hash(parsed(json.dumps(as_written(plan)))) == plan_hash(plan)
-
-
 def test_without_a_file_novices_watch_practise_and_play():
     plan = default_plan("itch-scratching", {"a": "builtin:vanilla"})
     assert [stage.kind for stage in plan.roles["novice"].stages] == ["watch", "practise", "play"]
-
-
-def paper(name):
-    return load_plan(f"builtin:paper-{name}").roles
-
-
-def test_the_paper_has_eight_novices_and_an_expert_who_watch_three_episodes():
-    roles = paper("exhaustiveness")
-    assert roles["novice"].participants == 8
-    assert {name: role.stages[-1].manner for name, role in roles.items()} == {
-        "novice": "own-way", "expert": "make-it-fail",
-    }  # fmt: skip
-    assert all(role.stages[0] == WatchStage(episodes=3) for role in roles.values())
-
-
-@pytest.mark.parametrize(
-    ("name", "raters", "question", "show"),
-    [("faithfulness", 15, "correspondence", "snapshot"), ("danger", 5, "danger", "replay"),
-     ("naturalness", 5, "naturalness", "replay")],
-)  # fmt: skip
-def test_the_paper_has_raters_of_thirty_pairs(name, raters, question, show):
-    (role,) = paper(name).values()
-    stage = role.stages[-1]
-    assert (role.participants, stage.question, stage.show, stage.count) == (
-        raters, question, show, 30,
-    )  # fmt: skip
-
-
-def test_a_protocol_of_another_name_lists_those_that_there_are():
-    with pytest.raises(UserError) as error:
-        load_plan("builtin:paper-exhaustivness")
-    assert str(error.value) == (
-        "study 'builtin:paper-exhaustivness' is unknown, did you mean "
-        "'builtin:paper-exhaustiveness'? there are builtin:paper-danger, "
-        "builtin:paper-exhaustiveness, builtin:paper-faithfulness, builtin:paper-naturalness"
-    )
-
-
-@pytest.mark.parametrize("name", protocol_names())
-def test_a_copy_names_other_robots_and_keeps_the_comments(name, parsed):
-    copy = copy_of(protocol_text(name), task="feeding", robots=["builtin:vanilla", "my/robot: b"])
-    plan = parsed(copy)
-    assert plan.task == "feeding"
-    assert as_written(plan)["robots"] == {"a": "builtin:vanilla", "b": "my/robot: b"}
-    assert copy.count("#") == protocol_text(name).count("#")
 
 
 def test_the_file_that_the_guide_shows_is_read_and_names_every_field(parsed):
@@ -327,29 +215,3 @@ def test_the_file_that_the_guide_shows_is_read_and_names_every_field(parsed):
         fields = {name for name, field in type(part).model_fields.items() if not field.exclude}
         assert all(f"{name}:" in shown for name in fields)
     assert {stage.kind for stage in stages} == {"watch", "practise", "play", "judge"}
-
-
-def test_an_overview_says_what_each_role_does_and_how_long_it_takes():
-    plan = load_plan("builtin:paper-exhaustiveness")
-    novice, expert = overview(plan, episode_seconds=10.0)[1:]
-    before = "consent, demographics, watch 3, practise 2, play 5"
-    assert novice == f"novice       8      ≈ 6  {before} in their own way"
-    assert expert == f"expert       1      ≈ 6  {before} to make it fail"
-
-
-def test_players_who_practise_once_are_advised_to_practise_twice(parsed):
-    plan = parsed(
-        TEXT.replace("      - {kind: practise}\n", "      - {kind: practise, episodes: 1}\n")
-    )
-    assert advice(plan)[0] == (
-        "novice: practises once, which does not tell the device from the person: ask for {kind: "
-        "practise, episodes: 2} or more"
-    )
-
-
-def test_players_who_never_practise_are_advised_against(parsed):
-    plan = parsed(TEXT.replace("      - {kind: practise}\n", ""))
-    assert advice(plan)[0] == (
-        "novice: nobody practises before they play, so that nothing can be claimed of their "
-        "device: add - {kind: practise, episodes: 2}"
-    )

@@ -213,7 +213,7 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
 def native_directory(spec: str, task: Task) -> Iterator[Path | None]:
     """Where a policy that `load_policy` takes lies in the native format; None if it does not."""
     if not spec.startswith(_BUILTIN):
-        there = os.path.isfile(Path(spec) / CARD_FILE)  # noqa: PTH113 - As in `_open`.
+        there = os.path.isfile(Path(spec) / CARD_FILE)  # noqa: PTH113 - Path's raises where a name is too long.
         yield Path(spec) if there else None
         return
     entry = BUNDLED / task.name / spec.removeprefix(_BUILTIN)
@@ -252,7 +252,8 @@ def _why_unknown(spec: str, task: Task, agent: Agent) -> str:
         return f"is no directory; did you mean '{_BUILTIN}{spec}'?"
     for ending, kind in _ENDINGS.items():
         if spec.lower().endswith(ending):
-            there = "a file" if os.path.isfile(spec) else "no directory"  # noqa: PTH113 - As in `_open`.
+            is_file = os.path.isfile(spec)  # noqa: PTH113 - Path's raises where a name is too long.
+            there = "a file" if is_file else "no directory"
             return f"is {there}; did you mean '{kind}:{spec}', with --trust?"
     return f"is no directory: {known}"
 

@@ -38,6 +38,7 @@ def test_at_the_edge_of_the_margin_the_test_says_equivalent_in_5_percent_at_most
     assert np.mean(wrong) <= 0.065
 
 
+# A limit of the method, so the threshold stays and strictness tells when it no longer holds.
 FEW_AND_FAR_APART = pytest.mark.xfail(
     strict=True, reason="five raters of strong taste: 92.7 % of 1,500; docs/study.md says so"
 )

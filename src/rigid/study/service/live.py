@@ -168,7 +168,7 @@ class LiveConnection:
             await self._refuse("not-now")
         except (WebSocketDisconnect, TimeoutError):
             await self._close(FAULT, "nothing is read")
-        except Exception:  # noqa: BLE001 - nobody's episode may be another's problem.
+        except Exception:  # noqa: BLE001 - Robots are anybody's code; told, logged, and no other's problem.
             _log.exception("an episode of %s broke off", self._participant.code)
             self._service.refusals.count("live", "fault")
             await self._close(FAULT, "the server failed")

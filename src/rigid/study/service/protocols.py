@@ -28,7 +28,7 @@ UNREAD_BYTES: Final = 64 * 1024
 class CountingHTTP(H11Protocol):
     """HTTP/1.1; gives up on requests that never end."""
 
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # As uvicorn's own.
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # uvicorn narrows asyncio's type too: sockets have a Transport.
         """A connection was opened."""
         super().connection_made(transport)
         self._late: asyncio.TimerHandle | None = None

@@ -92,7 +92,7 @@ def _observation_space(env: Any, agent: Any) -> gymnasium.Space[Any]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # PettingZoo's, that there is none.
             space: gymnasium.Space[Any] = env.observation_space(agent)
-    except (AttributeError, KeyError, NotImplementedError):
+    except (AttributeError, KeyError, NotImplementedError):  # How PettingZoo says it has none.
         observations, _ = env.reset(seed=0)
         shape = np.shape(observations[agent])
         return gymnasium.spaces.Box(-np.inf, np.inf, shape)
