@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
+import os
 import subprocess
 import sys
 
@@ -134,6 +136,38 @@ def test_help_names_every_option_with_its_default(name, help_of):
         assert ("(required)" if required else shown) in said
 
 
+GROUPS = {name.split()[0] for name in COMMANDS if " " in name}
+
+
+@pytest.mark.parametrize("width", [80, 60])
+@pytest.mark.parametrize("name", ["", *sorted(GROUPS), *COMMANDS])
+def test_help_fits_into_the_terminal(name, width, help_of, monkeypatch):
+    monkeypatch.setenv("COLUMNS", str(width))
+    text = help_of(*name.split())
+    assert max(map(len, text.splitlines())) <= width
+    assert "\n\n\n" not in text
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_breaks_prose_at_the_width_alone_and_shows_no_empty_default(
+    name, help_of, monkeypatch
+):
+    monkeypatch.setenv("COLUMNS", "1000")
+    text = help_of(*name.split())
+    said = inspect.getdoc(COMMANDS[name]).partition("\n\nExample")[0]
+    for paragraph in said.split("\n\n"):
+        assert f"\n{' '.join(paragraph.split())}\n" in text
+    assert "(default: )" not in text
+
+
+def test_an_example_over_several_lines_is_one_command(help_of, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "60")
+    said = help_of("compare").replace(" \\\n      ", " ")
+    assert (
+        "\n  rigid compare runs/* --humans pairs/1/human pairs/2/human --csv t.csv --latex" in said
+    )
+
+
 def test_help_of_train_lists_the_recipes_with_examples(help_of):
     text = help_of("train")
     assert "rigid train co-optimize --seed" in text
@@ -197,6 +231,17 @@ def test_bad_input_exits_with_2_and_one_message(exit_of):
     assert exit_of(UserError("no such robot")) == (2, "rigid: no such robot\n")
 
 
+def test_a_long_message_is_one_line_in_a_log_and_wrapped_on_a_terminal(exit_of, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    said = f"{'/a-long-way' * 5} is no robot: run rigid frontier --robot ROBOT --out NEW"
+    assert exit_of(UserError(said))[1] == f"rigid: {said}\n"
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    first, *lines = exit_of(UserError(said))[1].splitlines()
+    assert [first, *(line.removeprefix("  ") for line in lines)] == [
+        "rigid:", "/a-long-way" * 5, "is no robot: run rigid frontier", "--robot ROBOT --out NEW",
+    ]  # fmt: skip
+
+
 def test_an_interrupted_command_exits_with_130(exit_of):
     message = "\nrigid: interrupted; the same command begins anew\n"
     assert exit_of(KeyboardInterrupt()) == (130, message)
@@ -233,3 +278,14 @@ def test_main_exits_with_the_code_of_the_command(monkeypatch, tmp_path, capsys):
         cli.main()
     assert end.value.code == 2
     assert "frontier.json does not exist" in capsys.readouterr().err
+
+
+def test_a_command_whose_output_nobody_reads_any_more_ends_quietly():
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run(
+        [sys.executable, "-m", "rigid", "--help"], stdout=writer, stderr=subprocess.PIPE,
+        check=False, text=True, timeout=60,
+    )  # fmt: skip
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (141, "")

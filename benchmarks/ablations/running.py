@@ -16,6 +16,7 @@ from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
 from rigid.commands.progress import TerminalListener
 from rigid.compute.budget import training_speed
+from rigid.compute.listening import Workload
 from rigid.compute.provenance import command_line
 from rigid.compute.run_directory import alone_in, check_place, open_run
 from rigid.files import write_atomically
@@ -76,7 +77,9 @@ def train_variants(place: Workplace) -> dict[str, list[Point]]:
     )
     with TerminalListener("training") as listener:
         if missing:
-            listener.begin(steps, seconds)
+            listener.begin(
+                Workload(training_steps=steps, steps=steps, steps_per_second=steps / seconds)
+            )
         for variant, seed in missing:
             listener.say(f"{variant.name}, seed {seed}")
             place.points(variant, seed, listener.advance)

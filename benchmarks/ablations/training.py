@@ -15,7 +15,8 @@ from benchmarks.ablations.plan import HUMAN, ROBOT, TASK, Plan, Variant
 from benchmarks.study import once
 from rigid.compute.convergence import convergence
 from rigid.compute.endings import measure
-from rigid.compute.group import GroupInputs, GroupPlan, train_group
+from rigid.compute.group import train_group
+from rigid.compute.group_plan import GroupInputs, GroupPlan
 from rigid.compute.preparation import Prepared, prepare
 from rigid.compute.scoring import play_with
 from rigid.compute.subject import Subject

@@ -17,6 +17,7 @@ from typing import Any
 from benchmarks.coverage.plan import Plan
 from benchmarks.study import say
 from rigid.commands.parsing import spoken
+from rigid.compute.listening import Workload
 from rigid.compute.measurement import measure_robot
 from rigid.compute.subject import Subject
 from rigid.frontier.comparison import HEADLINE_LEVEL, numbers_of
@@ -107,10 +108,10 @@ class _Lines:
         self._total, self._done, self._said = 1, 0, 0
         self._since = time.monotonic()
 
-    def begin(self, env_steps: int, seconds: float) -> None:
+    def begin(self, work: Workload) -> None:
         """The estimate that is made for longer episodes is of no use here."""
-        del seconds
-        self._total, self._since = env_steps, time.monotonic()
+        self._total, self._done, self._since = work.steps, work.done, time.monotonic()
+        self._said = work.done
 
     def advance(self, env_steps: int) -> None:
         """Steps done since the last call."""

@@ -17,7 +17,7 @@ from benchmarks.prediction.predictors import numbers_of, redrawn
 from benchmarks.robots import RobotPlan
 from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
-from rigid.compute.budget import FIXED_SECONDS, TRAINING_SHARE, training_speed
+from rigid.compute.budget import FIXED_SECONDS, training_speed
 from rigid.compute.run_directory import alone_in
 from rigid.errors import UserError
 from rigid.files import write_atomically
@@ -25,6 +25,9 @@ from rigid.policies.native import CARD_FILE
 
 _FIXED = {"pair": 25.0, "robot": 6.0, "meeting": 1.0}
 """Compilation and loading [s], for the estimate of time only (seen on two busy cores)."""
+_PLAYING = 0.5
+"""Time of an episode that is played, over that of one that is learned from; for the estimate too.
+"""
 
 
 def run(plan: Plan, *, out: Path, results: Path) -> None:
@@ -100,7 +103,7 @@ def expected_seconds(place: Workplace, speed: float) -> float:
         sum(robot.iterations for robot in robots) * plan.training.episodes
         + pairs * plan.pair_settings.iterations * plan.pair_settings.episodes
         + frontiers * plan.preset.env_steps(horizon) / horizon
-        + meetings * plan.episodes * TRAINING_SHARE
+        + meetings * plan.episodes * _PLAYING
     )
     fixed = (
         len(robots) * _FIXED["robot"]

@@ -8,7 +8,7 @@ from pathlib import Path
 from benchmarks.kept import has_policy, keep_policy, keep_run, kept_run
 from benchmarks.robots import OWN_HUMAN, TASK, check_made, make_robot
 from benchmarks.standard.plan import Part, Plan, Robot
-from rigid.compute.group import GroupPlan
+from rigid.compute.group_plan import GroupPlan
 from rigid.compute.listening import Listener
 from rigid.compute.preparation import settings_for
 from rigid.compute.robot_run import Order

@@ -20,7 +20,7 @@ from rigid.commands.parsing import spoken
 from rigid.commands.progress import TerminalListener
 from rigid.compute.budget import training_speed
 from rigid.compute.executors import Executor, on_this_machine
-from rigid.compute.listening import Silence
+from rigid.compute.listening import Silence, Workload
 from rigid.compute.measurement import measure_each
 from rigid.compute.robot_run import Order
 from rigid.compute.run_directory import alone_in
@@ -125,8 +125,9 @@ def _executor(place: Workplace, parts: Sequence[Part]) -> Executor:
 
 
 def _steps(place: Workplace, part: Part) -> int:
-    """Environment steps of a part's training."""
-    return place.plan.search(part.preset).env_steps(place.task.horizon)
+    """Environment steps of a part's training and scoring."""
+    preset, horizon = place.plan.search(part.preset), place.task.horizon
+    return preset.env_steps(horizon) + preset.scoring_steps(preset.adversaries, horizon)
 
 
 class _OnePart:
@@ -136,11 +137,13 @@ class _OnePart:
         self._part, self._work, self._steps, self._terminal = part, work, steps, terminal
         self._done = 0
 
-    def begin(self, env_steps: int, seconds: float) -> None:
+    def begin(self, work: Workload) -> None:
         """The bar of all parts is there already."""
+        self._done = work.done
+        self._terminal.resume(work)
 
     def advance(self, env_steps: int) -> None:
-        """Steps done since the last call, resumed ones included."""
+        """Steps done since the last call."""
         self._done += env_steps
         self._work.advance(self._part, self._done / self._steps)
         self._terminal.advance(env_steps)

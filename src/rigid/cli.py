@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import functools
-import inspect
 import operator
 import os
 import sys
@@ -24,6 +23,7 @@ from rigid.commands.data import DataCommand
 from rigid.commands.doctoring import DoctorCommand
 from rigid.commands.exporting import ExportCommand
 from rigid.commands.gating import GateCommand
+from rigid.commands.helping import described, fitted_help, summary
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.pairing import PairsCommand
 from rigid.commands.parsing import printable
@@ -32,11 +32,14 @@ from rigid.commands.refereeing import RefereeCommand
 from rigid.commands.study import StudyCommand
 from rigid.commands.training import TrainCommand
 from rigid.commands.verifying import VerifyCommand
+from rigid.commands.wrapping import tell
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
 from rigid.serving.environment import shut_working_directory
 
 INTERRUPTED = 130
+PIPE_CLOSED = 141
+"""As a shell tells of a command that wrote to nobody: 128 + SIGPIPE."""
 
 
 @runtime_checkable
@@ -69,7 +72,14 @@ _COMMANDS: dict[str, type[_Runs]] = {
 def main() -> None:
     """Runs one command and exits: 0 done, 1 a check failed, 2 bad input, 130 interrupted."""
     shut_working_directory()
-    code = run()
+    try:
+        try:
+            code = run()
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:  # As of `rigid … | head`: who reads has read enough.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python flushes again.
+        code = PIPE_CLOSED
     if code == INTERRUPTED:
         # JAX may still compile or compute on threads of its own, and crashes when Python takes down
         # what they use. Nothing is left to do: files are written whole, and locks were let go.
@@ -88,11 +98,11 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return command.run()
     except UserError as error:
         lines = [printable(line) for line in str(error).split("\n")]
-        print("\n".join(["rigid: " + lines[0], *lines[1:]]), file=sys.stderr)
+        tell("\n".join(["rigid: " + lines[0], *lines[1:]]))
         return error.exit_code
     except KeyboardInterrupt as interrupt:
         how = str(interrupt) or "the same command begins anew"
-        print(f"\nrigid: interrupted; {how}", file=sys.stderr)
+        tell(f"\nrigid: interrupted; {how}")
         return INTERRUPTED
 
 
@@ -109,20 +119,23 @@ def parse(arguments: Sequence[str]) -> _Runs:
     )
     given = list(arguments)
     kinds = _kinds(with_examples=given[:1] not in (["--help"], ["-h"]))
-    command: _Runs = tyro.cli(kinds, args=given, prog="rigid", description=__doc__, config=config)
+    with fitted_help(given):
+        command: _Runs = tyro.cli(
+            kinds, args=given, prog="rigid", description=__doc__, config=config
+        )
     return command
 
 
 def _kinds(*, with_examples: bool) -> Any:
     """The union of all commands. tyro drops examples from a docstring, and lists what it is told.
 
-    So a command's own help is told its whole docstring, and the list of commands is not. The list
-    itself is told what it is, or tyro would look for that in the source of Python's `typing`, which
-    takes a fifth of the time of `rigid --help`.
+    So a command's own help is told its whole docstring, and the list of commands its first
+    paragraph. The list itself is told what it is, or tyro would look for that in the source of
+    Python's `typing`, which takes a fifth of the time of `rigid --help`.
     """
 
     def kind(name: str, command: type[_Runs]) -> Any:
-        text = inspect.getdoc(command) if with_examples else None
+        text = described(command) if with_examples else summary(command)
         return Annotated[command, tyro.conf.subcommand(name, description=text)]
 
     kinds = (kind(name, command) for name, command in _COMMANDS.items())

@@ -9,6 +9,9 @@ from typing import Any
 from rigid.errors import UserError
 from rigid.learning.conditioned import Sharing
 
+COMPANIONS = 2
+"""Canonical episodes beside the two replays of each adversary."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Preset:
@@ -51,6 +54,15 @@ class Preset:
         groups = len(self.seeds) * len(self.per_round)
         blocks = self.adversaries if self.sharing is None else groups * self.sharing.slots
         return blocks * self.iterations * self.episodes * horizon
+
+    @property
+    def judging_episodes(self) -> int:
+        """Episodes of each adversary for its referee and its score."""
+        return self.referee_episodes + self.validation_episodes + self.scoring_episodes
+
+    def scoring_steps(self, adversaries: int, horizon: int) -> int:
+        """Environment steps that score so many adversaries."""
+        return adversaries * (self.judging_episodes + COMPANIONS) * horizon
 
     def describe(self) -> dict[str, Any]:
         """Every number, as JSON."""

@@ -9,7 +9,8 @@ import pytest
 from tests.frontier.samples import store
 
 
-def test_compare_shows_every_robot_and_its_difference_to_the_first(rigid, two_runs):
+def test_compare_shows_every_robot_and_its_difference_to_the_first(rigid, two_runs, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
     code, out, err = rigid("compare", *two_runs)
     assert (code, err) == (0, "")
     titles = [
@@ -91,18 +92,58 @@ def test_methods_have_a_row_each_with_intervals_over_robots_and_seeds(rigid, met
     code, out, err = rigid("compare", *methods)
     assert (code, err) == (0, "")
     lines = out.splitlines()
-    assert lines[1].startswith("vanilla     1.00  0.500 [")
-    assert lines[5].startswith("robust  -0.200 [-0.20, -0.20]")
-    assert lines[4] == "minus vanilla, on the robots and search seeds that both have"
-    assert lines[9].split() == ["robust", "1.00", "[0.96,", "1.00]", "2", "2"]
+    assert lines[2].split()[:3] == ["vanilla", "1.00", "0.500"]
+    assert lines[7] == "minus vanilla, on the robots and search seeds that both have"
+    assert lines[10].split()[:2] == ["robust", "-0.200"]
+    assert lines[11].split()[:2] == ["[-0.20,", "-0.20]"]
+    assert lines[15].split() == ["robust", "1.00", "[0.96,", "1.00]", "2", "2"]
     assert "95 % intervals over robots and search seeds" in out
 
 
-def test_nothing_is_wider_than_a_hundred_columns(rigid, methods, two_runs, tmp_path):
-    long = store(tmp_path / "a-robot-whose-name-says-all-of-how-it-was-trained", {0: 0.5, 1: 0.9})
+LONG = "a-robot-whose-name-says-all-of-how-it-was-trained"
+
+
+@pytest.mark.parametrize("width", [None, 120, 80, 60, 40])
+def test_nothing_is_wider_than_the_terminal(rigid, methods, two_runs, tmp_path, monkeypatch, width):
+    """One that says nothing of its width, or is none, has 80 columns."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+    if width is not None:
+        monkeypatch.setenv("COLUMNS", str(width))
+    long = store(tmp_path / LONG, {0: 0.5, 1: 0.9})
     for given in (methods, two_runs, (*methods, long)):
         out = rigid("compare", *given)[1]
-        assert max(len(line) for line in out.splitlines()) <= 100
+        assert max(len(line) for line in out.splitlines()) <= (width or 80)
+
+
+@pytest.mark.parametrize("width", [120, 80, 60])
+def test_names_fold_and_numbers_stay_whole(rigid, methods, tmp_path, monkeypatch, width):
+    monkeypatch.setenv("COLUMNS", str(width))
+    long = store(tmp_path / LONG, {0: 0.5, 1: 0.9})
+    numbers = rigid("compare", methods[0], long)[1].partition("\n\n")[0]
+    names = [line.split("  ")[0] for line in numbers.splitlines() if line[0] != " "]
+    assert LONG in "".join(names)
+    assert "[0.00, 1.00]" in numbers
+
+
+def test_a_wide_terminal_shows_intervals_beside_their_numbers(rigid, methods, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
+    lines = rigid("compare", *methods)[1].splitlines()
+    assert lines[1].startswith("vanilla     1.00  0.500 [")
+    assert lines[6].startswith("robust  -0.200 [-0.20, -0.20]")
+
+
+def test_where_no_seed_found_a_natural_human_the_robot_is_named(rigid, two_runs):
+    data = json.loads((two_runs[1] / "frontier.json").read_text())
+    data["points"] = [{**point, "naturalness": 0.5} for point in data["points"]]
+    (two_runs[1] / "frontier.json").write_text(json.dumps(data))
+    out = rigid("compare", *two_runs)[1]
+    said = (
+        "worse: 0 of 2 seeds found a human at naturalness ≥ 0.9: in all of them canonical play "
+        "stands there"
+    )
+    assert said in " ".join(out.split())
+    found = json.loads(rigid("compare", *two_runs, "--json")[1])
+    assert found[1]["seeds_found"] == {"0.9": 0}
 
 
 def test_robots_that_pair_by_order_alone_are_named(rigid, methods):
@@ -155,7 +196,7 @@ def test_unseen_humans_get_a_column_everywhere(rigid, two_runs, own_task, tmp_pa
     options = ("--humans", own_task / "human", "builtin:passive", "--episodes", "5")
     code, out, _ = rigid("compare", *two_runs, *options, "--csv", tmp_path / "t.csv")
     assert code == 0
-    assert "own human           unseen humans" in out
+    assert "unseen humans  robots  search seeds" in out
     header, first, _ = (tmp_path / "t.csv").read_text().splitlines()
     assert header.endswith(",search_seeds,unseen,unseen_low,unseen_high")
     found = json.loads(rigid("compare", *two_runs, *options, "--json")[1])[0]

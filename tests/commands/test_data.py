@@ -158,12 +158,34 @@ def test_show_tells_what_is_in_a_file(rigid, recorded):
     code, text, _ = rigid("data", "show", recorded)
     lines = dict(line.split(maxsplit=1) for line in text.splitlines())
     assert code == 0
-    assert lines["episodes"] == "4 of 10 steps (1 s at 10 Hz)"
-    assert lines["consent"] == "not told"
+    assert lines["episodes"] == "4, each of 10 steps (1 s at 10 Hz)"
     assert lines["hand"].split()[0] == f"{load_episodes(recorded, task=None).features.min():.3f}"
     found = json.loads(rigid("data", "show", recorded, "--json")[1])
     assert found["returns_known"] == 4
     assert found["sha256"] == lines["sha256"]
+
+
+def test_show_of_a_recording_of_policies_names_them_and_asks_for_nobodys_consent(
+    rigid, toy_options, recorded
+):
+    _, robot, human = (str(option) for option in toy_options[1::2])
+    rigid("record", *toy_options, "--episodes", 2, "--out", recorded)
+    _, text, _ = rigid("data", "show", recorded)
+    lines = dict(line.split(maxsplit=1) for line in text.splitlines())
+    assert lines["source"] == "synthetic: a policy played the human"
+    assert (lines["robots"], lines["human"]) == (robot, human)
+    assert "not told" not in text
+
+
+def test_show_of_people_says_what_nobody_told(rigid, toys, csv_file, tmp_path):
+    del toys
+    out = tmp_path / "people.npz"
+    rigid("data", "import", "--from", csv_file, *TOY, "--out", out)
+    _, text, _ = rigid("data", "show", out)
+    lines = dict(line.split(maxsplit=1) for line in text.splitlines())
+    unknown = ("participants", "devices", "robots", "consent", "licence")
+    assert [lines[name] for name in unknown] == ["not told"] * 5
+    assert "human" not in lines
 
 
 def test_check_exits_with_1_when_an_episode_is_bad(rigid, toys, recorded, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rigid.commands.fleet import FleetBar, OneOfFleet, names_of
+from rigid.compute.listening import Workload
 from rigid.errors import UserError
 from rigid.policies.native import save_policy
 from tests.compute.tiny import FilmedReach
@@ -120,11 +121,14 @@ class Terminal:
     def __init__(self) -> None:
         self.total, self.done, self.lines = 0, 0, []
 
-    def expect(self, env_steps):
-        self.total = env_steps
+    def expect(self, steps):
+        self.total = steps
 
-    def advance(self, env_steps):
-        self.done += env_steps
+    def resume(self, work):
+        self.done += work.done
+
+    def advance(self, steps):
+        self.done += steps
 
     def say(self, text):
         self.lines.append(text)
@@ -136,9 +140,9 @@ def test_one_bar_stands_for_all_robots_also_those_that_nobody_expected():
     totals = []
     for name, steps in (("a", 100), ("b", 200), ("c", 50)):
         robot = OneOfFleet(bar, name)
-        robot.begin(steps, 1.0)
-        robot.advance(steps)
+        robot.begin(Workload(training_steps=steps // 2, steps=steps, done=10, steps_per_second=1.0))
+        robot.advance(steps - 10)
         totals.append(terminal.total)
     assert totals == [300, 300, 350]
     assert terminal.done == 350
-    assert terminal.lines[0] == "a: 100 training steps"
+    assert terminal.lines[0] == "a: 50 training steps"

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from rigid.commands.calibrating import said
+from rigid.commands.calibrating import said, too_far
 from rigid.compute import calibration
 
 
@@ -52,6 +52,7 @@ FOUND = {
     "worst": -8.0, "best": 2.0,
     "returns": {
         "canonical": {"mean": 1.9, "episodes": 200, "quantiles": {"0.05": -1.0, "0.95": 4.0}},
+        "sabotage": {"mean": -8.1, "episodes": 60, "quantiles": {"0.05": -9.0, "0.95": -7.0}},
     },
 }  # fmt: skip
 
@@ -65,12 +66,23 @@ def test_calibrate_passes_on_budget_and_seeds(rigid, toy_options, tmp_path, monk
 
     monkeypatch.setattr(calibration, "calibrate", calibrate)
     given = ["--preset", "tiny", "--iterations", 5, "--seeds", "3,4", "--out", tmp_path / "r.json"]
-    code, out, _ = rigid("calibrate", *toy_options, *given)
+    code, out, err = rigid("calibrate", *toy_options, *given)
     assert code == 0
+    assert "warning" not in err
     assert (heard["iterations"], heard["seeds"]) == (5, (3, 4))
     assert heard["run"] == tmp_path / "r.run"
     assert out == said(FOUND, tmp_path / "r.json") + "\n"
     assert "adversarialness 0 at a return of 2, 1 at -8" in out
+
+
+@pytest.mark.parametrize(("sabotage", "far"), [(-42.9, False), (-43.1, True)])
+def test_sabotage_ten_times_beyond_canonical_play_is_warned_of_with_a_nearer_range(sabotage, far):
+    spread = {"mean": -3.0, "quantiles": {"0.05": -5.0, "0.95": -1.0}}
+    warning = too_far({"returns": {"canonical": spread, "sabotage": {"mean": sabotage}}})
+    assert (warning is not None) == far
+    if far:
+        assert "10 times what canonical returns reach themselves (4)" in warning
+        assert warning.endswith("--return-range=-39,-3")
 
 
 def test_no_iterations_make_no_calibration(rigid, toy_options, tmp_path):

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rich.progress import Progress as Bar
-from rich.progress import TaskID
 
-from rigid.commands.progress import TerminalListener, TimeColumn
 from rigid.commands.training_progress import show_progress
 from rigid.learning.cooptimisation import Progress
 
@@ -89,6 +86,18 @@ def test_progress_goes_to_standard_error(capsys):
     assert "return -3.2 · success 0.50" in err
 
 
+def test_the_bar_of_a_robot_names_its_recipe(rigid, toys, tmp_path, monkeypatch):
+    from rigid.robots import vanilla
+
+    def train(task, settings, *, report, **others):
+        del task, settings, others
+        report(Progress(0, -3.25, 0.5, 0.1))
+
+    monkeypatch.setattr(vanilla, "train_vanilla", train)
+    options = ("--task", "toy-reach", "--pair", toys, "--out", tmp_path / "robot")
+    assert "training vanilla" in rigid("train", "vanilla", *options)[2]
+
+
 def test_a_bar_moves_within_a_slow_iteration_and_never_beyond_it(monkeypatch):
     from rigid.commands import progress
     from tests.toys import ToyReach
@@ -111,40 +120,3 @@ def test_a_bar_moves_within_a_slow_iteration_and_never_beyond_it(monkeypatch):
             world.step(still, still)  # As canonical episodes afterwards.
             assert bar.completed == 3
             report(Progress(-1, 0.0, 0.5, 0.1))
-
-
-@pytest.mark.parametrize(
-    ("expected", "elapsed", "text"),
-    [
-        (None, 75, "1:15 so far"),
-        (200.0, 20, "0:20 so far · 3 min left"),
-        (60.0, 90, "1:30 so far · longer than expected"),
-    ],
-)
-def test_before_the_first_step_the_bar_counts_down_from_the_estimate(expected, elapsed, text):
-    now = 0.0
-    times = TimeColumn("scoring")
-    times.expected = expected
-    bar = Bar(times, get_time=lambda: now)
-    bar.add_task("toy", total=10)
-    (task,) = bar.tasks
-    now = elapsed
-    assert times.render(task).plain == text
-
-
-def test_a_full_bar_says_what_is_done_then():
-    bar = Bar(times := TimeColumn("scoring"), get_time=lambda: 0.0)
-    bar.add_task("toy", total=10, completed=10)
-    bar.update(TaskID(0), advance=0)
-    assert times.render(bar.tasks[0]).plain == "0:00 so far · scoring"
-
-
-def test_the_listener_tells_an_estimate_first_and_prints_nothing_on_standard_output(capsys):
-    with TerminalListener("toy · tiny") as listener:
-        listener.begin(2400, 150.0)
-        listener.advance(2400)
-        listener.say("[done]")
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert "2,400 training steps; about 2 min" in err
-    assert "[done]" in err

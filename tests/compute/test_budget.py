@@ -12,14 +12,24 @@ from rigid.errors import UserError
 from tests.compute.tiny import TINY
 from tests.toys import ToyReach
 
-PRESET = replace(TINY, seeds=(0, 1, 2, 3), iterations=100, episodes=10)
+PRESET = replace(
+    TINY, seeds=(0, 1, 2, 3), iterations=100, episodes=10,
+    referee_episodes=1, validation_episodes=1, scoring_episodes=1,
+)  # fmt: skip
 HORIZON = 10
-FULL = PRESET.env_steps(HORIZON)
+
+
+def work(preset) -> int:
+    """Steps of training and scoring."""
+    return preset.env_steps(HORIZON) + preset.scoring_steps(preset.adversaries, HORIZON)
+
+
+FULL, SCORING = work(PRESET), PRESET.scoring_steps(PRESET.adversaries, HORIZON)
 
 
 def fitted(share: float):
-    """For a machine that trains one step in a second, and a share of the time for all steps."""
-    seconds = FIXED_SECONDS + share * FULL
+    """For a machine of one step in a second, time to score all, and a share of that to train."""
+    seconds = FIXED_SECONDS + SCORING + share * (FULL - SCORING)
     return fit_to(PRESET, seconds, horizon=HORIZON, steps_per_second=1.0)
 
 
@@ -33,7 +43,7 @@ def test_iterations_go_first():
 
 def test_a_preset_of_fewer_iterations_keeps_them():
     few = replace(PRESET, iterations=5)
-    seconds = FIXED_SECONDS + few.env_steps(HORIZON) / 2
+    seconds = FIXED_SECONDS + work(few) / 2
     fit = fit_to(few, seconds, horizon=HORIZON, steps_per_second=1.0)
     assert fit == replace(few, seeds=(0, 1))
 
@@ -44,11 +54,11 @@ def test_seeds_go_when_twenty_iterations_are_left():
 
 @pytest.mark.parametrize("share", [0.06, 0.2, 0.55, 0.97])
 def test_what_was_fitted_takes_no_longer_than_there_is_time(share):
-    assert fitted(share).env_steps(HORIZON) <= share * FULL
+    assert work(fitted(share)) <= SCORING + share * (FULL - SCORING)
 
 
 def test_too_little_time_for_one_seed_is_refused_with_the_least_that_would_do():
-    least = FIXED_SECONDS + FULL / 4 * 0.2
+    least = FIXED_SECONDS + work(replace(PRESET, seeds=(0,), iterations=20))
     message = rf"--budget is too short for preset 'tiny': .* about {least:.0f} s here, more than"
     with pytest.raises(UserError, match=message):
         fitted(0.04)

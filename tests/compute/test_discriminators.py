@@ -13,7 +13,7 @@ from scipy.stats import norm
 from rigid.compute.checkpoint import save_arrays, save_tree
 from rigid.compute.discriminator_files import load_discriminators
 from rigid.compute.discriminators import POSE_LEVELS, POSES, write_discriminators
-from rigid.compute.group import GroupInputs
+from rigid.compute.group_plan import GroupInputs
 from rigid.compute.referee_files import save_panel
 from rigid.compute.scoring import Ruler
 from rigid.errors import UserError

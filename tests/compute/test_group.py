@@ -7,7 +7,8 @@ import math
 import pytest
 
 from rigid.compute.convergence import convergence
-from rigid.compute.group import GroupPlan, json_lambda
+from rigid.compute.group import json_lambda
+from rigid.compute.group_plan import GroupPlan
 
 PLAN = GroupPlan(seed=3, round=2, lambdas=(0.1, math.inf))
 

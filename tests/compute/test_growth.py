@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 
 import pytest
 
-from rigid.compute.group import GroupInputs
+from rigid.compute.group_plan import GroupInputs
 from rigid.compute.growth import AXES, Axis, Cost, in_fresh_process, measured_growth, summed_up
 from rigid.compute.growth_case import Case, measure_case
 from rigid.compute.growth_lambdas import ratio_of, time_of_twice_the_lambdas

@@ -119,6 +119,16 @@ def halted(single_copy, measure):
     return checkpoint
 
 
+def test_steps_of_earlier_calls_are_told_at_the_beginning_and_not_again(
+    halted, single_copy, measure
+):
+    assert halted.exists()
+    notes = Notes()
+    measure(single_copy, seeds=[0], listener=notes)
+    assert notes.work.done > notes.work.steps / 2  # The first of two rounds, and a checkpoint.
+    assert notes.complete
+
+
 def test_a_truncated_checkpoint_is_refused_and_deleting_it_helps(
     halted, single_copy, single_run, measure
 ):

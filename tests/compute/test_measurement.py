@@ -111,7 +111,9 @@ def test_a_seed_added_later_gives_what_both_at_once_give(small_run, single_copy,
     grown = measure(single_copy, seeds=[1], listener=notes)
     assert without_times(grown) == without_times(small_run)
     assert not any(file.exists() for file in outdated)
-    assert notes.done == notes.planned == small_run.data["env_steps"]
+    assert notes.work.training_steps == small_run.data["env_steps"]
+    assert notes.work.done == notes.work.steps / 2
+    assert notes.complete
 
 
 def test_time_of_earlier_sessions_counts(single_copy, measure):

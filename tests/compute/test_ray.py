@@ -123,7 +123,8 @@ def test_workers_look_for_modules_where_the_driver_finds_them(task, resumed):
 def test_workers_and_nodes_are_told_and_every_step(resumed):
     frontier, notes = resumed
     assert "Ray: 2 workers on 2 nodes, 1 CPU for each" in notes.lines
-    assert notes.done == notes.planned
+    assert notes.work.done > 0  # Before it was interrupted.
+    assert notes.complete
     assert frontier.data["core_seconds"] > 0
 
 

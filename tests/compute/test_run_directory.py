@@ -11,7 +11,13 @@ import pytest
 
 from rigid.compute import run_directory
 from rigid.compute.provenance import provenance
-from rigid.compute.run_directory import alone_in, check_place, open_run, read_settings
+from rigid.compute.run_directory import (
+    alone_in,
+    check_place,
+    is_being_measured,
+    open_run,
+    read_settings,
+)
 from rigid.errors import UserError
 
 ENTER = """
@@ -61,6 +67,17 @@ def test_a_lock_ends_with_its_process(tmp_path):
     code = ENTER.replace("pass", "import os; os._exit(9)")
     subprocess.run([sys.executable, "-c", code, str(tmp_path)], check=False, timeout=120)
     assert (tmp_path / ".lock").exists()
+    with alone_in(tmp_path):
+        pass
+
+
+def test_whether_a_run_is_being_measured_is_seen_without_a_trace(tmp_path):
+    assert not is_being_measured(tmp_path)
+    with alone_in(tmp_path):
+        assert is_being_measured(tmp_path)
+        assert is_being_measured(tmp_path)
+    (tmp_path / ".lock").touch()  # Of a process that was killed.
+    assert not is_being_measured(tmp_path)
     with alone_in(tmp_path):
         pass
 

@@ -157,11 +157,11 @@ class Notes:
     """A listener that remembers, and interrupts the measurement when `stop` says so."""
 
     def __init__(self, stop=lambda: False) -> None:
-        self.planned, self.done, self.lines, self._stop = 0, 0, [], stop
+        self.work, self.done, self.lines, self._stop = None, 0, [], stop
 
-    def begin(self, env_steps, seconds):
-        assert seconds > 0
-        self.planned = env_steps
+    def begin(self, work):
+        assert work.seconds > 0
+        self.work, self.done = work, work.done
         self._check()
 
     def advance(self, env_steps):
@@ -170,6 +170,11 @@ class Notes:
 
     def say(self, text):
         self.lines.append(text)
+
+    @property
+    def complete(self):
+        """Whether every step was told, once."""
+        return self.done == self.work.steps
 
     def _check(self):
         if self._stop():

@@ -99,6 +99,13 @@ def test_the_recording_says_where_it_comes_from(tmp_path):
     assert data_hash(load_episodes(tmp_path / "canonical.npz", task=TASK)) == data_hash(episodes)
 
 
+def test_the_recording_keeps_the_units_that_its_task_knows():
+    task = ToyReach()
+    task.feature_units = {"hand": "m"}
+    assert play(task=task).about.units == {"hand": "m"}
+    assert play().about.units == {}
+
+
 def test_episodes_that_ran_away_are_replaced_by_the_next_and_counted():
     sound = play(20)
     episodes = play(9, task=ToyReach(fault_every=3))

@@ -7,8 +7,10 @@ import math
 
 import pytest
 
+from rigid.compute.run_directory import alone_in
 from rigid.errors import UserError
-from rigid.frontier.result import Frontier, load_frontier, measured_points
+from rigid.frontier.result import Frontier, lacking, load_frontier, measured_points
+from rigid.policies.native import CARD_FILE
 
 POINT = {
     "id": "s0-r1-l1", "seed": 0, "round": 1, "lambda": 0.1, "naturalness": 0.9,
@@ -51,6 +53,16 @@ def test_it_counts_the_seeds_that_found_a_human_of_a_naturalness(tmp_path):
     assert frontier.seeds_at(0.8) == (3, 4)
 
 
+def test_it_says_where_canonical_play_stands():
+    stands = "canonical play stands there"
+    level = "a human at naturalness ≥ 0.9"
+    assert lacking(6, 6, 0.9) is None
+    assert lacking(2, 6, 0.9) == f"2 of 6 seeds found {level}; in the others {stands}"
+    assert lacking(0, 6, 0.9) == f"0 of 6 seeds found {level}: in all of them {stands}"
+    assert lacking(0, 1, 0.9) == f"the seed found no human at naturalness ≥ 0.9: {stands}"
+    assert lacking(0, 9, 0.9, called="searches").startswith("0 of 9 searches found")
+
+
 def test_one_seed_has_no_interval(tmp_path):
     assert stored(tmp_path, {**DATA, "auc_interval": None}).auc_interval is None
 
@@ -61,6 +73,34 @@ def test_fields_of_later_versions_are_kept(tmp_path):
 
 def test_a_run_without_a_result_says_how_to_finish_it(tmp_path):
     with pytest.raises(UserError, match=r"frontier\.json does not exist: run `rigid frontier`"):
+        load_frontier(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("card", "said"),
+    [
+        ('{"agent": "robot"}', "is a policy (policy.json), not a measurement: measure it"),
+        ("{", "is a policy (policy.json), not a measurement: measure it"),
+        (
+            '{"agent": "human"}',
+            "is the policy of a human (policy.json), not a measurement: measure",
+        ),
+    ],
+)
+def test_a_policy_is_no_run_to_be_finished(tmp_path, card, said):
+    (tmp_path / CARD_FILE).write_text(card)
+    with pytest.raises(UserError) as error:
+        load_frontier(tmp_path)
+    assert str(error.value).startswith(f"{tmp_path} {said}")
+    option = "--human" if "human" in card else "--robot"
+    assert f"{option} {tmp_path} --out NEW`" in str(error.value)
+
+
+def test_a_run_that_is_being_measured_is_waited_for(tmp_path):
+    with (
+        alone_in(tmp_path),
+        pytest.raises(UserError, match=r"is being measured right now: wait for it$"),
+    ):
         load_frontier(tmp_path)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from rigid.errors import UserError
@@ -97,3 +99,31 @@ def test_notes_say_over_what_intervals_are_and_what_a_repeat_would_do():
     alone = notes_of(standings_of({"a": VANILLA[:1], "b": ROBUST[:1]}))
     assert alone[0].startswith("a repeat of a may differ by 0.")
     assert not any("over robots" in note for note in alone)
+
+
+def test_a_note_names_each_method_for_which_canonical_play_stands():
+    def at(naturalness, **changes):
+        frontier, identity = measured({0: 0.5, 1: 0.6}, **changes)
+        points = [{**point, "naturalness": naturalness} for point in frontier.points]
+        return replace(frontier, data={**frontier.data, "points": points}), identity
+
+    notes = notes_of(standings_of({"a": VANILLA, "b": [at(0.9), at(0.8, human="h1")]}))
+    assert notes[0] == (
+        "b: 2 of 4 searches found a human at naturalness ≥ 0.9; in the others canonical play "
+        "stands there"
+    )
+    assert not any(note.startswith("a: ") for note in notes)
+
+
+@pytest.mark.parametrize(("naturalness", "equal"), [(0.8, True), (0.85, False), (0.9, False)])
+def test_a_note_says_why_the_hull_equals_the_area(naturalness, equal):
+    """Canonical play and a human at 0.8 or below span a straight line over [0.8, 1]."""
+    frontier, identity = measured({0: 0.5, 1: 0.6})
+    points = [{**point, "naturalness": naturalness} for point in frontier.points]
+    run = replace(frontier, data={**frontier.data, "points": points}), identity
+    standings = standings_of({"a": [run]})
+    hull, area = (standings[0].method.numbers[key].mean for key in ("hull_at", "auc_natural"))
+    assert hull >= area
+    assert (hull == pytest.approx(area)) is equal
+    said = [note for note in notes_of(standings) if "hull at 0.9 equals area over [0.8, 1]" in note]
+    assert bool(said) is equal

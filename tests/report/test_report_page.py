@@ -295,8 +295,23 @@ def test_one_seed_says_that_it_has_no_interval_and_absent_replays_are_said(
     with visit(build_report(single, tmp_path / "report.html")) as page:
         texts = page.locator(".headline .interval").all_inner_texts()
         assert texts[:3] == ["one seed: no interval"] * 3
-        assert page.get_by_text("knows nothing to draw of this task").is_visible()
+        assert page.get_by_text("This task shows no picture").is_visible()
         assert page.locator("canvas").count() == 0
+
+
+@pytest.mark.parametrize("absent", ["scene", "replays"])
+def test_a_report_without_motion_invites_nobody_to_watch_and_shows_numbers_beside_the_chart(
+    visit, sample_payload, tmp_path, absent
+):
+    still = sample_payload(seeds=1, replays=0) | {absent: None, "failures": None}
+    with visit(build_report(still, tmp_path / "report.html")) as page:
+        captions = " ".join(page.locator("figcaption").all_inner_texts())
+        assert "Choose a mark to read its numbers" in captions
+        assert "to watch it" not in page.locator("main").inner_text()
+        chart, numbers = (page.locator(f".stage {part}").bounding_box()
+                          for part in (".frontier-chart", ".details"))  # fmt: skip
+        assert numbers["x"] > chart["x"] + chart["width"]
+        assert numbers["y"] < chart["y"] + chart["height"]
 
 
 def test_a_task_with_outcomes_of_its_own_and_without_forces_shows_what_it_has(
@@ -311,6 +326,8 @@ def test_a_task_with_outcomes_of_its_own_and_without_forces_shows_what_it_has(
         assert "ended early\n25" in shown
         assert "ran its time\n75" in shown
         assert "force" not in shown
+        assert "Forces are not physical" not in page.locator("main").inner_text()
+        assert page.get_by_role("columnheader", name="success").count() == 0
         assert page.get_by_text("This task has outcomes of its own").is_visible()
 
 

@@ -94,6 +94,12 @@ test("regret has a column only where somebody asked whose fault it was", () => {
   assert.ok(names({ regret: 0.2 }).includes("regret"));
 });
 
+test("what is known of nobody has no column", () => {
+  const names = (more: Raw) => columnsOf(payloadOf([point("a", 0.5, 0.5, more), point("b", 0.5, 0.5)]).points).map((c) => c.name);
+  assert.ok(!names({}).includes("peak force [N]"));
+  assert.ok(names({ peak_force: 3 }).includes("peak force [N]"));
+});
+
 test("the CSV has every field of every point, nested ones by dotted names", () => {
   const { points } = payloadOf([{ id: "a", outcomes: { helped: 0.5 }, lambda: "inf" }, { id: "b", extra: [1, 2] }]);
   assert.equal(csv(points), 'id,outcomes.helped,lambda,extra\r\na,0.5,inf,\r\nb,,,"[1,2]"\r\n');

@@ -38,17 +38,15 @@ class BlameCommand(OpeningOptions, MeasuredTaskOptions):
 
     def run(self) -> int:
         """Trains the responses and prints what they say."""
-        from rich.console import Console
-
+        from rigid.commands.progress import TerminalListener
         from rigid.compute.blame import FILE, blame
 
-        console, file = Console(stderr=True), self.directory / FILE
+        file = self.directory / FILE
         names = None if self.points is None else [part.strip() for part in self.points.split(",")]
-        with goes_on(file, file.exists):
+        with goes_on(file, file.exists), TerminalListener("best responses") as listener:
             found = blame(
                 self.directory, task=self.named_task(), robot=self.robot, opening=self.opening(),
-                points=names,
-                say=lambda text: console.print(text, highlight=False, markup=False),
+                points=names, say=listener.say,
             )  # fmt: skip
         print(json.dumps(found, indent=1) if self.json else table(found))
         return 0

@@ -13,6 +13,7 @@ import tyro
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import at_least, parse_seeds
 from rigid.commands.stopping import goes_on
+from rigid.commands.wrapping import tell
 
 _shown_as = tyro.conf.arg
 
@@ -21,9 +22,10 @@ _shown_as = tyro.conf.arg
 class CalibrateCommand(PairOptions):
     """Measure which returns adversarialness 0 and 1 stand for, and freeze them in a file.
 
-    0 is the mean return of canonical play, 1 that of λ = 0, an adversary that nothing holds close;
-    both are rounded to the power of ten at which their distance has two digits. Every measurement
-    of the task should use the same file: rigid frontier --return-range FILE.
+    Adversarialness 0 is the mean return of canonical play, 1 that of λ = 0, an adversary that
+    nothing holds close; both are rounded to the power of ten at which their distance has two
+    digits. Every measurement of the task should use the same file: rigid frontier --return-range
+    FILE.
 
     Examples:
       rigid calibrate --task my-task --robot my/robot --human my/human --out range.json
@@ -71,7 +73,28 @@ class CalibrateCommand(PairOptions):
                 subject, preset, out=self.out, run=run, executor=executor, listener=listener
             )
         print(json.dumps(found) if self.json else said(found, self.out))
+        warning = too_far(found)
+        if warning is not None:
+            tell(f"warning: {warning}")
         return 0
+
+
+def too_far(found: Mapping[str, Any]) -> str | None:
+    """What is wrong with a range in which no natural failure shows, and the cure."""
+    from rigid.compute.calibration import FAR, natural_reach, rounded_range
+
+    reach, times = natural_reach(found["returns"])
+    if times < FAR:
+        return None
+    natural = found["returns"].get("recorded", found["returns"]["canonical"])["mean"]
+    # Ten times its cost, where canonical play costs something and gains nothing.
+    worst, best = rounded_range(natural - (FAR - 1) * reach, natural)
+    return (
+        f"sabotage lies {times * reach:.4g} below canonical play, {times:.0f} times what canonical "
+        f"returns reach themselves ({reach:.2g}): natural failures would all look like "
+        "adversarialness 0; to tell them apart, give every measurement a nearer range, such as "
+        f"--return-range={worst:g},{best:g}"
+    )
 
 
 def said(found: Mapping[str, Any], out: Path) -> str:

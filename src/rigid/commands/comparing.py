@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from rigid.commands.comparison_files import ComparisonFiles
+from rigid.commands.helping import several
 from rigid.commands.measured import load_measured, parse_methods
 from rigid.commands.parsing import at_least
 from rigid.errors import UserError
@@ -45,21 +46,21 @@ class CompareCommand:
       rigid compare --robots builtin:vanilla robots/* --out runs/fleet --executor ray
     """
 
-    runs: Annotated[tuple[str, ...], tyro.conf.Positional, _shown_as(metavar="DIR…")] = ()
+    runs: Annotated[tuple[str, ...], tyro.conf.Positional, several("DIR…")] = ()
     """Finished run directories, or methods as NAME=DIR,DIR…; two directories or more."""
-    humans: Annotated[tuple[str, ...], _shown_as(metavar="HUMAN…")] = ()
+    humans: Annotated[tuple[str, ...], several("HUMAN…")] = ()
     """Also play each robot with these humans, but its own, for success with unseen humans."""
     episodes: int = 200
     """Of each robot with each of --humans."""
     csv: Annotated[Path | None, _shown_as(metavar="FILE")] = None
-    """Write the table as CSV; _vs_vanilla_high is the upper bound against the first row."""
+    """Write the table as CSV, its columns as docs/comparing.md names them."""
     latex: Annotated[Path | None, _shown_as(metavar="FILE")] = None
     """Write the table as LaTeX (booktabs)."""
     figure: Annotated[Path | None, _shown_as(metavar="FILE")] = None
     """Draw all curves on the same axes (.svg, .pdf or .png)."""
     page: Annotated[Path | None, _shown_as(metavar="FILE")] = None
     """Write a page with table, curves and links to the reports (.html)."""
-    robots: Annotated[tuple[str, ...], _shown_as(metavar="ROBOT…")] = ()
+    robots: Annotated[tuple[str, ...], several("ROBOT…")] = ()
     """Measure these first, each into the folder of its name in --out; what is there goes on."""
     out: Annotated[Path | None, _shown_as(metavar="DIR")] = None
     """Where --robots are measured."""
@@ -106,6 +107,7 @@ class CompareCommand:
     ) -> None:
         from rigid.commands.comparison_json import methods_as_json, robots_as_json
         from rigid.commands.comparison_table import table
+        from rigid.commands.wrapping import columns
         from rigid.frontier.standings import notes_of, standings_of, unlike_pairs
 
         standings = standings_of(methods)  # Refuses what cannot be compared before anybody plays.
@@ -117,7 +119,7 @@ class CompareCommand:
             as_json = methods_as_json if grouped else robots_as_json
             print(json.dumps(as_json(standings, asked=bool(self.humans)), indent=1))
             return
-        print(table(standings, notes))
+        print(table(standings, notes, width=columns()))
         for path in written:
             print(f"written: {path}")
 

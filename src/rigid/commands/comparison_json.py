@@ -91,12 +91,15 @@ def _whole_robot(frontier: Frontier) -> dict[str, Any]:
 
 def _of_robot(frontier: Frontier) -> dict[str, Any]:
     from rigid.compute.run_directory import RunDirectory
+    from rigid.frontier.comparison import HEADLINE_LEVEL
 
+    found, _ = frontier.seeds_at(HEADLINE_LEVEL)
     report = RunDirectory(frontier.directory).report
     return {
         "directory": str(frontier.directory),
         "report": str(report) if report.exists() else None,
         "auc_paper_axis": frontier.data.get("auc_paper_axis"),
+        "seeds_found": {f"{HEADLINE_LEVEL:g}": found},
     }
 
 

@@ -1,10 +1,14 @@
-"""The comparison of robots or methods as text, for a terminal of 100 columns."""
+"""The comparison of robots or methods as text that fits into a terminal."""
 
 from __future__ import annotations
 
+import io
+import re
 import textwrap
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from rigid.commands.wrapping import wrapped
 
 if TYPE_CHECKING:
     from rigid.frontier.intervals import Interval
@@ -12,65 +16,140 @@ if TYPE_CHECKING:
     from rigid.frontier.standings import Standing
     from rigid.frontier.successes import Success
 
-_WIDTH = 100
-_NAME, _NUMBER, _DIFFERENCE, _SUCCESS = 11, 20, 22, 24
-"""Of columns: a name with four numbers or four differences just fits."""
+_GAP = 2
+_NAME = 11
+"""Columns that a longer name has at least, before the table becomes narrower or parts."""
 
 
-def table(standings: Sequence[Standing], notes: Sequence[str] = ()) -> str:
+class _Column(NamedTuple):
+    title: str
+    cells: Sequence[str]
+
+    @property
+    def width(self) -> int:
+        return max(len(line) for text in (self.title, *self.cells) for line in text.split("\n"))
+
+    @property
+    def narrow(self) -> _Column:
+        """The same with intervals below their numbers, and titles in two lines."""
+        title = re.sub(r" (?=[≥\[\d]|seeds|humans?)", "\n", self.title, count=1)
+        return _Column(title, [cell.replace(" [", "\n[") for cell in self.cells])
+
+
+class _Folder(textwrap.TextWrapper):
+    """Breaks a name behind a sign that parts it, where there is one."""
+
+    wordsep_re = re.compile(r"(?<=[-/_.=])")
+
+
+def table(standings: Sequence[Standing], notes: Sequence[str] = (), *, width: int = 80) -> str:
     """The comparison as text: numbers with intervals, differences to the first, successes.
+
+    Names fold, numbers never: in a narrow terminal intervals stand below their numbers, and in a
+    very narrow one a table comes in parts.
 
     Args:
         standings: The first is the baseline.
         notes: Sentences below.
+        width: Of the terminal, in columns.
     """
     from rigid.frontier.standings import TITLES
 
     singles = all(len(standing.robots) == 1 for standing in standings)
     asked = any(standing.unseen is not None for standing in standings)
-    width = min(max(len(standing.method.name) for standing in standings), _NAME)
-    titles = "".join(f"{title:>{_NUMBER}}" for title in TITLES.values())
-    lines = [f"{'robot' if singles else 'method':{width}}  {'success':>7}{titles}"]
-    for standing in standings:
-        cells = [f"{_share(standing.success):>9}"]
-        cells += [f"{_number(standing.method.numbers[key]):>{_NUMBER}}" for key in TITLES]
-        lines += _row(standing, width, cells)
+    success = _Column("success", [_share(standing.success) for standing in standings])
+    numbers = (
+        _Column(title, [_number(standing.method.numbers[key]) for standing in standings])
+        for key, title in TITLES.items()
+    )
+    head, names = "robot" if singles else "method", [one.method.name for one in standings]
+    lines = [*_block(head, names, [success, *numbers], width)]
     if len(standings) > 1:
-        lines += ["", *_differences(standings, width, singles=singles)]
+        paired = "search seeds" if singles else "robots and search seeds"
+        title = f"minus {names[0]}, on the {paired} that both have"
+        lines += [
+            "",
+            wrapped(title, width),
+            *_block(head, names[1:], _differences(standings), width),
+        ]
     if asked or not singles:
-        lines += ["", *_successes(standings, width, asked=asked)]
-    wrapped = (textwrap.fill(note, _WIDTH, subsequent_indent="  ") for note in notes)
-    return "\n".join([*lines, "", *wrapped])
+        lines += ["", *_block("success", names, _successes(standings, asked=asked), width)]
+    return "\n".join([*lines, "", *(wrapped(note, width) for note in notes)])
 
 
-def _differences(standings: Sequence[Standing], width: int, *, singles: bool) -> Iterator[str]:
+def _differences(standings: Sequence[Standing]) -> list[_Column]:
     from rigid.frontier.standings import TITLES
 
-    paired = "search seeds" if singles else "robots and search seeds"
-    yield f"minus {standings[0].method.name}, on the {paired} that both have"
-    for standing in standings[1:]:
-        assert standing.method.against is not None  # Every method has a robot.
-        found = (standing.method.against[key] for key in TITLES)
-        yield from _row(standing, width, [f"{_difference(one):>{_DIFFERENCE}}" for one in found])
+    against = [one.method.against for one in standings if one.method.against is not None]
+    return [
+        _Column(title, [_difference(one[key]) for one in against]) for key, title in TITLES.items()
+    ]
 
 
-def _successes(standings: Sequence[Standing], width: int, *, asked: bool) -> Iterator[str]:
-    titles = ("own human", "unseen humans") if asked else ("own human",)
-    heads = "".join(f"{title:>{_SUCCESS}}" for title in titles)
-    yield f"{'success':{width}}{heads}    robots  search seeds"
-    for standing in standings:
-        shown = (standing.success, standing.unseen) if asked else (standing.success,)
-        cells = [f"{_share(one)}{'' if one is None else _ends(one.interval)}" for one in shown]
-        counts = f"{standing.method.robots:10}{standing.method.seeds:14}"
-        yield from _row(standing, width, [*(f"{cell:>{_SUCCESS}}" for cell in cells), counts])
+def _successes(standings: Sequence[Standing], *, asked: bool) -> list[_Column]:
+    def column(title: str, of: Callable[[Standing], Success | None]) -> _Column:
+        found = [of(standing) for standing in standings]
+        ends = [None if one is None else one.interval for one in found]
+        return _Column(
+            title, [f"{_share(one)}{_ends(e)}" for one, e in zip(found, ends, strict=True)]
+        )
+
+    return [
+        column("own human", lambda standing: standing.success),
+        *([column("unseen humans", lambda standing: standing.unseen)] if asked else []),
+        _Column("robots", [str(standing.method.robots) for standing in standings]),
+        _Column("search seeds", [str(standing.method.seeds) for standing in standings]),
+    ]
 
 
-def _row(standing: Standing, width: int, cells: Sequence[str]) -> list[str]:
-    """One line, or two where the name is longer than its column."""
-    name = standing.method.name
-    return [f"{name:{width}}{''.join(cells)}"] if len(name) <= width else [
-        name, f"{'':{width}}{''.join(cells)}"
-    ]  # fmt: skip
+def _block(
+    head: str, names: Sequence[str], columns: Sequence[_Column], width: int
+) -> Iterator[str]:
+    """A table, or several below each other that have the same rows, of at most `width` columns."""
+    longest = max(map(len, (head, *names)))
+    room = width - min(longest, _NAME)
+    if _taken(columns) > room:
+        columns = [column.narrow for column in columns]
+    for number, part in enumerate(_parts(columns, room)):
+        if number > 0:
+            yield ""
+        yield from _drawn(head, names, part, min(longest, max(width - _taken(part), _NAME)))
+
+
+def _parts(columns: Sequence[_Column], room: int) -> list[Sequence[_Column]]:
+    """As few parts as have room, of about equally many columns."""
+    for count in range(1, len(columns)):
+        size = -(-len(columns) // count)
+        parts = [columns[first : first + size] for first in range(0, len(columns), size)]
+        if all(_taken(part) <= room for part in parts):
+            return parts
+    return [[column] for column in columns]
+
+
+def _taken(columns: Sequence[_Column]) -> int:
+    return sum(_GAP + column.width for column in columns)
+
+
+def _drawn(
+    head: str, names: Sequence[str], columns: Sequence[_Column], name_width: int
+) -> Iterator[str]:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    height = max(column.title.count("\n") for column in columns)
+    drawn = Table(box=None, padding=(0, 0, 0, _GAP), pad_edge=False)
+    drawn.add_column(Text("\n" * height + head), width=name_width, overflow="fold")
+    for column in columns:
+        title = "\n" * (height - column.title.count("\n")) + column.title
+        drawn.add_column(Text(title), justify="right", min_width=column.width, no_wrap=True)
+    folder = _Folder(name_width)
+    for name, *cells in zip(names, *(column.cells for column in columns), strict=True):
+        drawn.add_row(Text("\n".join(folder.wrap(name))), *map(Text, cells))
+    console = Console(file=io.StringIO(), width=name_width + _taken(columns), color_system=None)
+    with console.capture() as captured:
+        console.print(drawn)
+    return (line.rstrip() for line in captured.get().splitlines())
 
 
 def _number(found: Estimate) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from rigid.commands.data_looking import CheckCommand, ShowCommand
 from rigid.commands.groups import member
 from rigid.commands.naming import TaskOptions
 from rigid.commands.places import new_file
+from rigid.commands.wrapping import tell
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -125,9 +125,9 @@ class ImportCommand(TaskOptions):
         if untold and episodes.source == "recorded":
             warnings.append("nobody will know what may be done with it: --consent, --licence")
         for note in notes:
-            print(note, file=sys.stderr)
+            tell(note)
         for warning in filter(None, warnings):
-            print(f"warning: {warning}", file=sys.stderr)
+            tell(f"warning: {warning}")
         if not self.json:
             print(f"{used} of {len(found.verdicts)} episodes: {self.out}")
         return 0
@@ -175,8 +175,11 @@ class ExportCommand:
     def run(self) -> int:
         """Reads and writes."""
         from rigid.commands.data_exporting import export
+        from rigid.commands.progress import TerminalListener
 
-        print(export(self))
+        with TerminalListener(f"exporting {self.file}"):
+            said = export(self)
+        print(said)
         return 0
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -11,6 +10,7 @@ from typing import Annotated
 import tyro
 
 from rigid.commands.naming import TaskOptions
+from rigid.commands.wrapping import tell
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +68,7 @@ class CheckCommand(TaskOptions):
         else:
             print_verdicts(verdicts)
         if problem is not None:
-            print(f"warning: {problem}", file=sys.stderr)
+            tell(f"warning: {problem}")
         bad = sum(not verdict.used for verdict in verdicts)
         if not self.json:
             print(f"{self.file}: {len(verdicts) - bad} of {len(verdicts)} episodes are good")

@@ -60,7 +60,7 @@ def described(episodes: CanonicalEpisodes) -> dict[str, Any]:
         "consent": about.consent, "licence": about.licence,
         "participants": {name: count for name, count in sorted(met.items()) if name},
         "devices": sorted({note.device for note in about.episodes} - {""}),
-        "robots": sorted({note.robot for note in about.episodes} - {""}),
+        "robots": _robots(episodes),
         "observations": _width(episodes.observations), "actions": _width(episodes.actions),
         "rewards": episodes.rewards is not None,
         "returns_known": int(np.isfinite(episodes.returns).sum()),
@@ -75,30 +75,69 @@ def described(episodes: CanonicalEpisodes) -> dict[str, Any]:
 
 def print_described(found: dict[str, Any]) -> None:
     """The same for people."""
-    people = found["participants"]
     seconds = found["steps"] * found["control_period"]
     rate = found["recorded_rate"]
     lines = {
         "task": found["task"],
-        "source": found["source"],
-        "episodes": f"{found['episodes']} of {found['steps']} steps ({seconds:g} s at "
+        "source": _SOURCES[found["source"]],
+        "episodes": f"{found['episodes']}, each of {found['steps']} steps ({seconds:g} s at "
         f"{1 / found['control_period']:g} Hz)" + (f", recorded at {rate:g} Hz" if rate else ""),
-        "participants": ", ".join(f"{name} ({n})" for name, n in people.items()) or "not told",
-        "devices": ", ".join(found["devices"]) or "not told",
-        "robots": ", ".join(found["robots"]) or "not told",
-        "consent": found["consent"] or "not told",
-        "licence": found["licence"] or "not told",
-        "observations": found["observations"] or "none: a human cannot be cloned from this",
-        "actions": found["actions"] or "none: a human cannot be cloned from this",
-        "returns": f"{found['returns_known']} known, mean {_text(found['return'])}",
+        **_who(found),
+        "observations": _numbers(found["observations"]),
+        "actions": _numbers(found["actions"]),
+        "returns": f"{found['returns_known']} known, mean {_text(found['return'])}"
+        if found["returns_known"]
+        else "none known",
         "success": _text(found["success"]),
         "sha256": found["sha256"],
     }
     for name, said in lines.items():
         print(f"{name:14}{printable(str(said))}")
+    print(f"{'features':14}lowest to highest; units where the task or --map tells them")
     for name, span in found["features"].items():
-        unit = span["unit"] or ""
-        print(f"  {printable(name):24} {span['low']:10.3f} to {span['high']:8.3f} {unit}")
+        line = f"  {printable(name):24} {span['low']:10.3f} to {span['high']:8.3f}"
+        print(f"{line} {printable(span['unit'])}" if span["unit"] else line)
+
+
+_SOURCES = {
+    "synthetic": "synthetic: a policy played the human",
+    "recorded": "recorded from people",
+}
+
+
+def _robots(episodes: CanonicalEpisodes) -> list[str]:
+    """Who was met: as each episode notes it, else as whoever made the whole file says."""
+    noted = sorted({note.robot for note in episodes.about.episodes} - {""})
+    whole = episodes.provenance.get("robot")
+    return noted or ([str(whole)] if whole else [])
+
+
+def _who(found: dict[str, Any]) -> dict[str, str]:
+    """Who played, and under which terms; policies consent to nothing, so they miss nothing."""
+    people, human = found["participants"], found["provenance"].get("human")
+    told = {
+        "participants": ", ".join(f"{name} ({n})" for name, n in people.items()),
+        "devices": ", ".join(found["devices"]),
+        "robots": ", ".join(map(_name, found["robots"])),
+        "human": _name(str(human)) if human else "",
+        "consent": found["consent"] or "",
+        "licence": found["licence"] or "",
+    }
+    people_alone = {"participants", "devices", "consent", "licence"}
+    unfit = people_alone if found["source"] == "synthetic" else {"human"}
+    return {name: said or "not told" for name, said in told.items() if said or name not in unfit}
+
+
+def _name(player: str) -> str:
+    """A player as it was called, or the first digits of its weights' hash."""
+    hashed = len(player) == 64 and set(player) <= set("0123456789abcdef")
+    return f"policy with SHA-256 {player[:12]}…" if hashed else player
+
+
+def _numbers(width: int | None) -> str:
+    if not width:
+        return "none: a human cannot be cloned from this"
+    return "1 number a step" if width == 1 else f"{width} numbers a step"
 
 
 def _width(array: np.ndarray | None) -> int | None:

@@ -14,6 +14,7 @@ from rigid.errors import UserError
 
 if TYPE_CHECKING:
     from rigid.commands.progress import TerminalListener
+    from rigid.compute.listening import Workload
 
 
 def measure_fleet(
@@ -67,7 +68,7 @@ def measure_fleet(
         for robot, directory in zip(robots, directories, strict=True)
     ]  # fmt: skip
     with goes_on(out), TerminalListener(f"{len(robots)} robots · {budget.name}") as terminal:
-        bar = FleetBar(terminal, sum(order.env_steps for order in orders if not _done(order.out)))
+        bar = FleetBar(terminal, sum(order.all_steps for order in orders if not _done(order.out)))
         told = [replace(o, listener=OneOfFleet(bar, o.out.name)) for o in orders]
         measure_robots(told, where)
     return directories
@@ -103,14 +104,15 @@ def _done(directory: Path) -> bool:
 class FleetBar:
     """The terminal's one bar for all robots of a fleet."""
 
-    def __init__(self, terminal: TerminalListener, env_steps: int) -> None:
-        self.terminal, self._expected, self._begun = terminal, env_steps, 0
+    def __init__(self, terminal: TerminalListener, steps: int) -> None:
+        self.terminal, self._expected, self._begun = terminal, steps, 0
 
-    def begin(self, env_steps: int) -> None:
+    def begin(self, work: Workload) -> None:
         """One more robot is under way."""
-        self._begun += env_steps
+        self._begun += work.steps
         # Robots that were complete but for new seeds are not expected.
         self.terminal.expect(max(self._expected, self._begun))
+        self.terminal.resume(work)
 
 
 class OneOfFleet:
@@ -119,11 +121,10 @@ class OneOfFleet:
     def __init__(self, bar: FleetBar, name: str) -> None:
         self._bar, self._name = bar, name
 
-    def begin(self, env_steps: int, seconds: float) -> None:
+    def begin(self, work: Workload) -> None:
         """Its time alone says nothing of the fleet's."""
-        del seconds
-        self.say(f"{env_steps:,} training steps")
-        self._bar.begin(env_steps)
+        self.say(f"{work.training_steps:,} training steps")
+        self._bar.begin(work)
 
     def advance(self, env_steps: int) -> None:
         """Steps done since the last call."""

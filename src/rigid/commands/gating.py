@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from rigid.commands.measured import load_measured
+from rigid.commands.parsing import printable
+from rigid.commands.wrapping import NO_BREAK, columns, wrapped
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -51,21 +53,31 @@ class GateCommand:
     """By how much it may be worse than the baseline."""
 
     def run(self) -> int:
-        """Prints one line for each limit; 3 when one is exceeded."""
+        """Prints a verdict for each limit; 3 when one is exceeded."""
         if not 0 <= self.at_naturalness <= 1:
             raise UserError(f"--at-naturalness is {self.at_naturalness}, but must lie in [0, 1]")
         verdicts = [*_absolute(self), *_against_baseline(self)]
         if not verdicts:
             raise UserError("name a limit: --max-worst, --max-auc or --baseline")
+        width = columns()
         for fine, text in verdicts:
-            print(f"{'ok    ' if fine else 'FAILED'}  {text}")
-        if (self.max_worst, self.max_auc) != (None, None):
-            print(_WHY_WIDER)
-        if self.max_worst is not None:
-            lacking = load_measured(self.directory)[0].lacking_at(self.at_naturalness)
-            if lacking is not None:
-                print(lacking)
+            sign = "ok    " if fine else "FAILED"
+            print(wrapped(f"{sign}  {text}", width, hanging=" " * len("FAILED  ")))
+        for note in _notes(self):
+            print(wrapped(note, width))
         return 0 if all(fine for fine, _ in verdicts) else GATE_FAILED
+
+
+def _notes(options: GateCommand) -> Iterator[str]:
+    """What a reader of the verdicts has to know, a sentence each."""
+    if (options.max_worst, options.max_auc) != (None, None):
+        yield _WHY_WIDER
+    if (options.max_worst, options.baseline) == (None, None):
+        return
+    for directory in filter(None, (options.directory, options.baseline)):
+        lacking = load_measured(directory)[0].lacking_at(options.at_naturalness)
+        if lacking is not None:
+            yield f"{printable(str(directory))}: {lacking}"
 
 
 def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
@@ -91,13 +103,11 @@ def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
         frontiers[name], identities[name] = load_measured(directory)
     against = compare(frontiers, identities, level=options.at_naturalness)[1].against
     assert against is not None
-    level = f"worst at naturalness ≥ {options.at_naturalness:g}"
+    level = f"worst at ≥ {options.at_naturalness:g}"
     for key, label in (("worst_at", level), ("auc_natural", "area over [0.8, 1]")):
         found = against[key]
         high = None if found.interval is None else found.interval.high
-        yield _within(
-            f"{label}, minus the baseline's", found.mean, high, "paired t", options.margin
-        )
+        yield _within(f"{label} minus baseline", found.mean, high, "paired t", options.margin)
 
 
 def _bound(number: Number) -> tuple[float | None, str]:
@@ -114,5 +124,6 @@ def _within(
     """Whether the upper bound keeps the limit; without one nothing is known."""
     if bound is None:
         return False, f"{label}: {mean:.3f} from one seed has no upper bound; add --seeds"
-    text = f"{label}: {mean:.3f}, upper bound {bound:.3f} ({source}), limit {limit:g}"
+    held = source.replace(" ", NO_BREAK)
+    text = f"{label}: {mean:.3f}, upper bound {bound:.3f}, limit {limit:g} ({held})"
     return bound <= limit, text

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import inspect
 from typing import Any
 
 import tyro
+
+from rigid.commands.helping import described
 
 
 def member(name: str, command: type) -> Any:
@@ -15,4 +16,4 @@ def member(name: str, command: type) -> Any:
         name: On the command line.
         command: Annotated with what this returns.
     """
-    return tyro.conf.subcommand(name, description=inspect.getdoc(command))
+    return tyro.conf.subcommand(name, description=described(command))

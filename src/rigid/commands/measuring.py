@@ -95,10 +95,20 @@ class ReportCommand:
 
     def run(self) -> int:
         """Writes the report and prints its path."""
-        from rigid.report.gather import write_report
+        from rigid.frontier.result import load_frontier
 
-        print(write_report(self.directory, self.out))
+        print(_draw(load_frontier(self.directory), self.out))
         return 0
+
+
+def _draw(frontier: Frontier, out: Path | None = None) -> Path:
+    """Writes the report, with a bar: it plays two episodes of each adversary again."""
+    from rigid.commands.progress import TerminalListener
+    from rigid.report.gather import write_report
+
+    with TerminalListener("drawing the report") as listener:
+        listener.expect(len(frontier.points), after="writing")
+        return write_report(frontier.directory, out, drawn=listener.advance)
 
 
 def _measure(options: FrontierCommand) -> int:
@@ -127,10 +137,10 @@ def _measure(options: FrontierCommand) -> int:
             executor=options.executor, opening=options.opening(), listener=listener,
             return_range=options.return_range,
         )  # fmt: skip
-        report = options.out / "report.html"
-        if not report.exists():
-            listener.say("drawing the report")
-            frontier.report()
+    report = options.out / "report.html"
+    if not report.exists():
+        with goes_on(options.out):
+            _draw(frontier)
     print(json.dumps(dict(frontier.data)) if options.json else headline(frontier, report))
     return 0
 
@@ -160,9 +170,10 @@ def _fitted(
 
 def headline(frontier: Frontier, report: Path) -> str:
     """What the terminal shows at the end."""
+    from rigid.commands.wrapping import columns, wrapped
     from rigid.compute.return_range import spoken_range
 
-    data = frontier.data
+    data, width = frontier.data, columns()
     worst, natural = data["worst_at_interval"]["0.9"], data["auc_natural_interval"]
     lines = [
         "",
@@ -178,7 +189,8 @@ def headline(frontier: Frontier, report: Path) -> str:
         lines.append(f"  {lacking}")
     if data.get("stamp"):
         lines.append(f"  {data['stamp']}")
-    return "\n".join([*lines, "", f"report: {report}"])
+    shown = (wrapped(line, width, hanging=" " * 4) for line in lines)
+    return "\n".join([*shown, "", f"report: {report}"])
 
 
 def _seeds(data: Mapping[str, Any]) -> str:

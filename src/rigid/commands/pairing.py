@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
+from rigid.commands.helping import several
 from rigid.commands.parsing import at_least, printable
 from rigid.errors import UserError
 
@@ -35,9 +36,9 @@ class PairsCommand:
       rigid pairs runs/vanilla --recordings anna.npz ben.npz --kind faithfulness --out pairs.json
     """
 
-    directories: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
+    directories: Annotated[tuple[Path, ...], tyro.conf.Positional, several()] = ()
     """Finished run directories of one task."""
-    recordings: Annotated[tuple[Path, ...], _shown_as(metavar="FILE…")] = ()
+    recordings: Annotated[tuple[Path, ...], several("FILE…")] = ()
     """Recorded episodes, one human a file; judged by the runs of the robot they met."""
     kind: Annotated[Literal["danger", "naturalness", "faithfulness"], _shown_as(metavar="KIND")]
     """danger, naturalness or faithfulness."""

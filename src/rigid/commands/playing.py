@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,6 +14,7 @@ from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import at_least, parse_expected
 from rigid.commands.places import file_played_again
 from rigid.commands.ranging import RangeOptions
+from rigid.commands.wrapping import tell
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,7 +112,7 @@ class EvaluateCommand(RangeOptions, _PlayOptions):
                 print(f"adversarialness is {spoken}")
         if expected is None or found["expected_return"]["ok"]:
             return 0
-        print(f"rigid: {_refusal(found)}", file=sys.stderr)
+        tell(f"rigid: {_refusal(found)}")
         return 1
 
 

@@ -7,21 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from threading import Timer
 from types import TracebackType
 from typing import TYPE_CHECKING, final
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, ProgressColumn, TaskID, TextColumn
+from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn
 from rich.progress import Task as Bar
 from rich.table import Column
 from rich.text import Text
 
+from rigid.commands.pace import Pace
 from rigid.commands.parsing import spoken
 
 if TYPE_CHECKING:
+    from rigid.compute.listening import Workload
     from rigid.tasks.protocol import Task
 
-SCORING = "scoring"
 PATIENCE = 2.0
 """Seconds after which people want to see that something moves. Ours."""
 _MEMORY = 120.0
@@ -34,27 +36,45 @@ class TimeColumn(ProgressColumn):
 
     max_refresh = 0.5
 
-    def __init__(self, after: str) -> None:
-        """Says `after` once the bar is full: what is done then."""
+    def __init__(self, after: str, pace: Pace | None = None) -> None:
+        """A column of one bar.
+
+        Args:
+            after: What is done once the bar is full, and goes on while its clock does.
+            pace: Knows how long it will take; by default the bar does.
+        """
         super().__init__(Column(no_wrap=True))  # The bar gives way on a narrow terminal.
         self.after = after
-        self.expected: float | None = None
-        """Seconds that the whole should take, for as long as nothing was seen of it."""
+        self._pace = pace
 
     def render(self, task: Bar) -> Text:
         """The times of one bar."""
-        elapsed = task.finished_time if task.finished else task.elapsed
-        return Text(f"{clock(elapsed or 0.0)} so far{self._rest(task, elapsed or 0.0)}")
+        return Text(f"{clock(task.elapsed or 0.0)} so far{self.rest(task)}")
 
-    def _rest(self, task: Bar, elapsed: float) -> str:
+    def rest(self, task: Bar) -> str:
+        """What is still to come."""
         if task.finished:
             return f" · {self.after}"
-        left = task.time_remaining
-        if left is None and self.expected is not None:
-            left = self.expected - elapsed
+        if self._pace is None:
+            left = task.time_remaining
+        else:
+            left = None if task.remaining is None else self._pace.left(task.remaining)
         if left is None:
             return ""
-        return f" · {spoken(left)} left" if left > 0 else " · longer than expected"
+        compiling = " · compiling" if self._pace is not None and self._pace.compiling else ""
+        return f"{compiling} · {spoken(left)} left"
+
+
+@final
+class ShareColumn(ProgressColumn):
+    """The share that is done, as long as it is known."""
+
+    def __init__(self) -> None:
+        super().__init__(Column(no_wrap=True))
+
+    def render(self, task: Bar) -> Text:
+        """The share of one bar."""
+        return Text("" if task.total is None else f"{task.percentage:>3.0f} %")
 
 
 def clock(seconds: float) -> str:
@@ -79,17 +99,23 @@ def bar_of(console: Console, *columns: ProgressColumn) -> Progress:
 class TerminalListener:
     """Tells the terminal how a measurement goes on; use as a context manager.
 
-    A listener that shows something else holds one and passes on what it wants shown.
+    As long as nobody knows how much there is to do, the bar pulses. A listener that shows something
+    else holds one and passes on what it wants shown.
     """
 
     def __init__(self, what: str) -> None:
         self._what = what
         self._console = Console(stderr=True)
-        self._times = TimeColumn(SCORING)
-        self._bar = bar_of(self._console, TextColumn("{task.percentage:>3.0f} %"), self._times)
-        self._task: TaskID | None = None
+        self._pace = Pace()
+        self._times = TimeColumn("summing up", self._pace)
+        self._bar = bar_of(self._console, ShareColumn(), self._times)
+        self._task = self._bar.add_task(what, total=None)
+        self._pulse = Timer(PATIENCE, self._bar.start)
+        self._pulse.daemon = True
 
     def __enter__(self) -> TerminalListener:
+        if self._console.is_terminal:
+            self._pulse.start()
         return self
 
     def __exit__(
@@ -98,40 +124,53 @@ class TerminalListener:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if self._task is not None:  # One that never began leaves no empty line.
+        self._pulse.cancel()
+        if self._pulse.is_alive():
+            self._pulse.join()
+        bar = self._bar.tasks[0]
+        if kind is None:
+            self._times.after = "done"
+            self._bar.update(self._task, completed=bar.total)
+        self._bar.live.transient = bar.total is None  # One that never began leaves nothing.
+        if self._bar.live.is_started:
             self._bar.stop()
 
-    def begin(self, env_steps: int, seconds: float) -> None:
-        """Training starts."""
-        self.say(
-            f"{env_steps:,} training steps; about {spoken(seconds)} at the speed just measured"
-        )
-        self._times.expected = seconds
-        self.expect(env_steps)
+    def begin(self, work: Workload) -> None:
+        """Work starts, or goes on."""
+        share = 100 * work.done / work.steps
+        done = f", of which {share:.0f} % are done" if work.done else ""
+        self.say(f"{work.training_steps:,} training steps{done}; about {spoken(work.seconds)}")
+        self.expect(work.steps)
+        self.resume(work)
 
-    def expect(self, env_steps: int, after: str = SCORING) -> None:
+    def resume(self, work: Workload) -> None:
+        """Steps of earlier calls are among those that the bar stands for; the speed is a guess."""
+        self._bar.advance(self._task, work.done)
+        if not self._pace.expected:
+            self._pace.expect(work.steps_per_second, work.starting)
+
+    def expect(self, steps: int, after: str = "summing up") -> None:
         """Steps that the bar stands for, from now on, and what is done after the last."""
         self._times.after = after
-        if self._task is not None:
-            self._bar.update(self._task, total=env_steps)
-            return
-        self._task = self._bar.add_task(self._what, total=env_steps)
+        self._bar.update(self._task, total=steps)
         self._bar.start()
 
-    def advance(self, env_steps: int) -> None:
+    def advance(self, steps: int) -> None:
         """Steps done since the last call."""
-        if self._task is None:
+        bar = self._bar.tasks[0]
+        if bar.total is None:
             return
-        before = self._bar.tasks[0].percentage
-        self._bar.advance(self._task, env_steps)
-        now = self._bar.tasks[0].percentage
+        self._pace.advance(steps)
+        before = bar.percentage
+        self._bar.advance(self._task, steps)
         # A bar does not show in a log.
-        if not self._console.is_terminal and now // 5 > before // 5:
-            self.say(f"{self._what}: {now:.0f} %")
+        if not self._console.is_terminal and bar.percentage // 5 > before // 5:
+            self.say(f"{self._what}: {bar.percentage:.0f} %{self._times.rest(bar)}")
 
     def say(self, text: str) -> None:
         """A line for the user."""
-        self._console.print(text, highlight=False, markup=False)
+        whole = not self._console.is_terminal  # A log is searched.
+        self._console.print(text, highlight=False, markup=False, soft_wrap=whole)
 
 
 @contextmanager

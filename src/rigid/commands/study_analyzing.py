@@ -6,11 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-import tyro
-
+from rigid.commands.helping import several
 from rigid.errors import UserError
-
-_shown_as = tyro.conf.arg
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +31,7 @@ class AnalyzeCommand:
 
     data: Path
     """Directory of the study."""
-    runs: Annotated[tuple[str, ...], _shown_as(metavar="RUN…")] = ()
+    runs: Annotated[tuple[str, ...], several("RUN…")] = ()
     """Finished runs of the study's robots, as DIR, or KEY=DIR with the robot's key there; only
     people who played need them."""
     out: Path

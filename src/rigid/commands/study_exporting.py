@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import tyro
+
+from rigid.commands.helping import several
+from rigid.commands.wrapping import tell
 
 if TYPE_CHECKING:
     from rigid.study.store.exports import Corrected, Exported
@@ -66,7 +68,7 @@ class WithdrawCommand:
       rigid study withdraw --data data/study1
     """
 
-    codes: Annotated[tuple[str, ...], tyro.conf.Positional] = ()
+    codes: Annotated[tuple[str, ...], tyro.conf.Positional, several()] = ()
     """Of the participants."""
     data: Path
     """Directory of the study."""
@@ -86,10 +88,9 @@ class WithdrawCommand:
                 print(f"deleted everything of {code}")
             whole = store.scrub()
         if not whole:
-            print(
+            tell(
                 "warning: somebody is reading the study, so that traces are left in its files: end "
-                f"that, then rigid study withdraw --data {self.data}",
-                file=sys.stderr,
+                f"that, then rigid study withdraw --data {self.data}"
             )
         with Console(stderr=True).status("correcting exports"):
             corrected = correct_exports(self.data)
@@ -118,8 +119,7 @@ def _tell_corrected(corrected: Sequence[Corrected]) -> None:
         if mended:
             print(f"took {', '.join(codes)} out of {path}")
         else:
-            print(
+            tell(
                 f"warning: {path} held {', '.join(codes)}, but is no longer there: delete them "
-                "wherever it went",
-                file=sys.stderr,
+                "wherever it went"
             )

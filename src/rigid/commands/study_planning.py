@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from rigid.commands.helping import several
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ class NewCommand:
     """paper-exhaustiveness, paper-faithfulness, paper-danger or paper-naturalness."""
     task: Annotated[str | None, _shown_as(metavar="TASK")] = None
     """Task to name in it."""
-    robot: Annotated[tuple[str, ...], _shown_as(metavar="ROBOT…")] = ()
+    robot: Annotated[tuple[str, ...], several("ROBOT…")] = ()
     """Robots to name in it, which become a, b, …; see rigid frontier --robot."""
 
     def run(self) -> int:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from rigid.commands.helping import several
 from rigid.commands.naming import OpeningOptions
 from rigid.commands.stopping import goes_on
 from rigid.errors import UserError
@@ -43,7 +44,7 @@ class ServeCommand(OpeningOptions):
     and play."""
     task: str | None = None
     """Task to play, in place of the study's; itch-scratching without a study."""
-    robot: Annotated[tuple[str, ...], _shown_as(metavar="ROBOT…")] = ()
+    robot: Annotated[tuple[str, ...], several("ROBOT…")] = ()
     """Robots to meet, in place of the study's; builtin:vanilla without a study."""
     host: str = "127.0.0.1"
     """Address to listen on; 0.0.0.0 for all of this machine's."""

@@ -45,7 +45,7 @@ class PalmCommand(RobotOptions):
         with (
             goes_on(self.out),
             show_progress("co-optimising a diverse pair", diverse.iterations) as report_diverse,
-            show_progress("personalising", palm.personalisation.iterations) as report,
+            show_progress("training palm", palm.personalisation.iterations) as report,
         ):
             error = train_palm(
                 self.open_task(), replace(recipe, diverse=diverse, palm=palm),

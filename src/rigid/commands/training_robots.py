@@ -78,6 +78,9 @@ class RobotOptions(TaskOptions):
 class VanillaCommand(RobotOptions):
     """Train a robot for one synthetic human (the paper's Vanilla RL), with its canonical data.
 
+    The paper calls it personalized: it learns with the finished human of the pair, from reward and
+    from the pair's own robot.
+
     Example:
       rigid train vanilla --pair runs/pair-1 --seed 1 --out runs/robot-1
     """
@@ -99,7 +102,7 @@ class VanillaCommand(RobotOptions):
         settings = fitted(replace(PersonalisationSettings(), memory=self.memory), task.horizon)
         if self.iterations is not None:
             settings = replace(settings, iterations=self.iterations)
-        with goes_on(self.out), show_progress("personalising", settings.iterations) as report:
+        with goes_on(self.out), show_progress("training vanilla", settings.iterations) as report:
             shown = report.within(task, settings.episodes)
             train_vanilla(
                 shown, settings, pair=self.pair, seed=self.seed, out=self.out,
@@ -146,8 +149,8 @@ class GleaveCommand(RobotOptions):
         )
         with (
             goes_on(self.out),
-            show_progress("co-optimising", population.iterations) as of_population,
-            show_progress("personalising", personalisation.iterations) as report,
+            show_progress("co-optimising a population", population.iterations) as of_population,
+            show_progress("training gleave", personalisation.iterations) as report,
         ):
             train_gleave(
                 task, settings, pair=self.pair, seed=self.seed, out=self.out,

@@ -43,7 +43,7 @@ class VerifyCommand:
         begun = time.monotonic()
         with TerminalListener("verifying") as listener:
             listener.say("trying out how fast training is here")
-            listener.begin(plan.env_steps, plan.seconds())
+            listener.begin(plan.workload())
             result = plan.run(listener.advance, listener.say)
         result["wall_seconds"] = time.monotonic() - begun
         print(table(result))

@@ -23,7 +23,8 @@ import numpy as np
 
 from rigid._version import __version__
 from rigid.compute.clock import Clock
-from rigid.compute.group import GroupInputs, GroupPlan, run_group
+from rigid.compute.group import run_group
+from rigid.compute.group_plan import GroupInputs, GroupPlan
 from rigid.compute.iteration_parts import Iteration
 from rigid.compute.preparation import prepare, settings_for
 from rigid.compute.scoring import play_with, seen_by_referee

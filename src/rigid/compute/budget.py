@@ -9,13 +9,17 @@ from pathlib import Path
 
 import numpy as np
 
+from rigid.cores import cores
 from rigid.errors import UserError
 from rigid.learning.conditioned import Sharing
 from rigid.presets import Preset
 from rigid.tasks.protocol import Task
 
-TRAINING_SHARE = 0.5
-"""Training steps per second over plain stepping; for estimates of time only (measured .45-.6)."""
+LEARNING_SECONDS = 1.5e-4
+"""Time that learning takes one process for each step, beside the step itself [s]; for estimates of
+time only (measured .9e-4 to 2.3e-4)."""
+COMPILING_SECONDS = 25.0
+"""Compilation of training and referees (measured 20-40 s)."""
 FIXED_SECONDS = 40.0
 """Compilation, canonical episodes, the report (measured 30-50 s on two cores)."""
 _LEAST_ITERATIONS = 20
@@ -23,7 +27,7 @@ _PROBE_WORLDS, _PROBE_STEPS = 192, 20
 
 
 def training_speed(task: Task) -> float:
-    """Expected training steps per second on this machine, from half a second of stepping."""
+    """Expected training steps per second of one process, from half a second of stepping."""
     world = task.make_world(_PROBE_WORLDS)
     world.reset(np.arange(_PROBE_WORLDS))
     robot = np.zeros((_PROBE_WORLDS, task.robot.action_size))
@@ -31,7 +35,18 @@ def training_speed(task: Task) -> float:
     begun = time.perf_counter()
     for _ in range(_PROBE_STEPS):
         world.step(robot, human)
-    return TRAINING_SHARE * _PROBE_WORLDS * _PROBE_STEPS / (time.perf_counter() - begun)
+    return working_speed(_PROBE_WORLDS * _PROBE_STEPS / (time.perf_counter() - begun))
+
+
+def working_speed(stepping: float, workers: int = 1) -> float:
+    """Expected steps per second of training and scoring.
+
+    Args:
+        stepping: Plain steps per second of one process on all cores of this machine.
+        workers: One process on all cores, or so many with a core each.
+    """
+    threads = 1 if workers == 1 else len(cores())  # That a worker does without.
+    return workers / (threads / stepping + LEARNING_SECONDS)
 
 
 def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: float) -> Preset:
@@ -41,12 +56,13 @@ def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: fl
         UserError: Not even one seed with 20 iterations fits.
     """
     affordable = max(seconds - FIXED_SECONDS, 0.0) * steps_per_second
-    share = affordable / preset.env_steps(horizon)
-    if share >= 1:
+    if _work(preset, horizon) <= affordable:
         return preset
+    training = preset.env_steps(horizon)
+    share = (affordable - (_work(preset, horizon) - training)) / training
     least = min(_LEAST_ITERATIONS, preset.iterations)
     iterations = max(int(share * preset.iterations), least)
-    per_seed = replace(preset, seeds=preset.seeds[:1], iterations=iterations).env_steps(horizon)
+    per_seed = _work(replace(preset, seeds=preset.seeds[:1], iterations=iterations), horizon)
     seeds = int(affordable // per_seed)
     if seeds < 1:
         needed = FIXED_SECONDS + per_seed / steps_per_second
@@ -55,6 +71,11 @@ def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: fl
             f"takes about {needed:.0f} s here, more than the {seconds:g} s given"
         )
     return replace(preset, iterations=iterations, seeds=preset.seeds[:seeds])
+
+
+def _work(preset: Preset, horizon: int) -> int:
+    """Steps of training and scoring."""
+    return preset.env_steps(horizon) + preset.scoring_steps(preset.adversaries, horizon)
 
 
 def stored_preset(directory: Path, preset: Preset) -> Preset | None:

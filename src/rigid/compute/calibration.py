@@ -37,6 +37,10 @@ SABOTAGE = 0.0
 """λ of an adversary that nothing holds close."""
 ROUNDING = "to the nearest multiple of the power of ten at which best - worst has two digits"
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+FAR = 10.0
+"""Sabotage that lies so many times further below canonical play than that itself reaches is no
+measure of natural failures. Ours: canonical play that goes twice as badly as usual then moves
+adversarialness by a tenth at most, and whatever natural humans do lies in the axis's first few."""
 EPISODES = 200
 """Of canonical play; as many as preset `paper` scores an adversary on."""
 _SEED = 3  # Of recordings: neither the search's, nor the ruler's, nor those of the referee's gates.
@@ -206,6 +210,30 @@ def rounded_range(worst: float, best: float) -> tuple[float, float]:
     """
     digit = math.floor(math.log10(best - worst)) - 1
     return round(worst, -digit) + 0.0, round(best, -digit) + 0.0  # No minus zero.
+
+
+def natural_reach(returns: Mapping[str, Mapping[str, Any]]) -> tuple[float, float]:
+    """How far canonical returns themselves reach, and how many times further sabotage lies below.
+
+    The reach is the mean return's size or the width of the middle 90 %, whichever is more: the
+    size, since rewards whose canonical returns are all alike still tell success from none; the
+    width, since returns around 0 have no size.
+
+    Args:
+        returns: `spread_of` each kind of play, as the file has it.
+
+    Returns:
+        The reach, and the distance to sabotage in units of it; 0 where there is no reach.
+
+    Example:
+        >>> play = {"mean": -3.0, "quantiles": {"0.05": -5.0, "0.95": -1.0}}
+        >>> natural_reach({"canonical": play, "sabotage": {"mean": -83.0}})
+        (4.0, 20.0)
+    """
+    natural = returns.get("recorded", returns["canonical"])
+    mean, ends = natural["mean"], natural["quantiles"]
+    reach = max(abs(mean), ends["0.95"] - ends["0.05"])
+    return reach, (mean - returns["sabotage"]["mean"]) / reach if reach else 0.0
 
 
 def spread_of(groups: Sequence[Float[np.ndarray, " _n"]]) -> dict[str, Any]:

@@ -30,7 +30,7 @@ from rigid.compute.discriminator_files import (
     Scores,
     file_of,
 )
-from rigid.compute.group import GroupInputs
+from rigid.compute.group_plan import GroupInputs
 from rigid.compute.referee_files import load_panel
 from rigid.compute.scoring import KEPT_EPISODES
 from rigid.files import json_text, write_atomically

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Hashable, Iterable, Mapping
 from typing import Protocol, TypeVar, runtime_checkable
 
-from rigid.compute.group import GroupPlan
+from rigid.compute.group_plan import GroupPlan
 from rigid.compute.seed_search import SeedSearch
 
 Ticket = TypeVar("Ticket", bound=Hashable)
@@ -73,8 +73,8 @@ def _send_next(
     pool: Pool[Ticket], search: SeedSearch, waiting: dict[Ticket, tuple[SeedSearch, GroupPlan]]
 ) -> bool:
     """Hands out the next group of a seed; False when its search is over."""
-    while (plan := search.next_plan()) is not None:
-        if not search.take_finished(plan):
-            waiting[pool.send(search, plan)] = (search, plan)
-            return True
-    return False
+    plan = search.next_plan()
+    if plan is None:
+        return False
+    waiting[pool.send(search, plan)] = (search, plan)
+    return True

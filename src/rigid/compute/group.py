@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,75 +16,28 @@ import numpy as np
 
 from rigid.compute.checkpoint import load_tree, save_arrays, save_tree
 from rigid.compute.convergence import convergence
+from rigid.compute.group_plan import (
+    GroupInputs,
+    GroupPlan,
+    checkpoint_of,
+    scoring_steps,
+    search_of,
+    training_steps,
+)
 from rigid.compute.referee_files import save_panel
-from rigid.compute.scoring import Court, Ruler, judge, score
+from rigid.compute.scoring import Court, Judged, Scored, judge, score
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically
 from rigid.learning.adversary import Adversary, Metrics
-from rigid.learning.adversary_settings import AdversarySettings
-from rigid.learning.group_play import Opponent
-from rigid.learning.searching import Search, search_for
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.native import save_policy
-from rigid.presets import Preset
-from rigid.tasks.protocol import Task
-from rigid.tasks.views.watched import WatchedWorld
+from rigid.tasks.views.watched import WatchedWorld, watched
 
 Row = dict[str, Any]
 """A line of `metrics.jsonl`: iteration, and numbers or None."""
 
 CHECKPOINT_EVERY = 10
 """Iterations between checkpoints: at most about 10 s of work is lost on two cores."""
-
-
-@dataclass(frozen=True)
-class GroupPlan:
-    """Which adversaries make up the group."""
-
-    seed: int
-    round: int
-    lambdas: tuple[float, ...]
-
-    @property
-    def name(self) -> str:
-        """`s0-r1`: seed 0, round 1."""
-        return f"s{self.seed}-r{self.round}"
-
-    def member(self, index: int) -> str:
-        """Id of one adversary, `s0-r1-l1` for the first λ."""
-        return f"{self.name}-l{index + 1}"
-
-    @property
-    def entropy(self) -> int:
-        """One integer from which all of the group's randomness derives."""
-        return int(np.random.SeedSequence([self.seed, self.round]).generate_state(1)[0])
-
-
-@dataclass(frozen=True)
-class GroupInputs:
-    """Everything that every group of a measurement shares."""
-
-    task: Task
-    opponent: Opponent
-    ruler: Ruler
-    preset: Preset
-    settings: AdversarySettings
-    directory: Path
-    threads: int = 0
-    """Threads that step worlds; 0: every core. No number depends on it."""
-
-
-def search_of(inputs: GroupInputs, plan: GroupPlan) -> Search:
-    """How the group is trained."""
-    return search_for(inputs.task, inputs.opponent, inputs.settings, plan.lambdas, plan.entropy)
-
-
-def training_steps(inputs: GroupInputs, plan: GroupPlan) -> int:
-    """Environment steps of a group's training."""
-    preset = inputs.preset
-    return (
-        search_of(inputs, plan).blocks * preset.iterations * preset.episodes * inputs.task.horizon
-    )
 
 
 def run_group(
@@ -96,24 +48,18 @@ def run_group(
     Args:
         inputs: What all groups share.
         plan: Which adversaries these are.
-        advance: Called with environment steps as they are done, resumed ones included.
+        advance: Called with environment steps as they are done, scoring included.
 
     Returns:
         One entry of `frontier.json`'s points for each λ, in the order of the plan.
     """
-    steps = training_steps(inputs, plan)
     finished = read_finished(inputs.directory, plan)
     if finished is not None:
-        advance(steps)
         return finished
+    steps = training_steps(inputs, plan)
     group, history = train_group(inputs, plan, advance)
-    policies = [adversary.learner.policy for adversary in group]
-    court = Court(
-        inputs.task, inputs.opponent, inputs.ruler, inputs.preset, inputs.settings, inputs.threads
-    )
-    judged = judge(court, policies, plan.entropy)
-    scored = score(court, group, judged, plan.entropy)
     points = []
+    scored, judged = _score_group(inputs, plan, group, advance)
     for index, (point, episodes) in enumerate(scored):
         name = plan.member(index)
         points.append({
@@ -133,8 +79,32 @@ def run_group(
     done = _done(inputs.directory, plan)
     done.parent.mkdir(exist_ok=True)
     write_atomically(done, json_text({"points": points}, indent=1).encode())
-    (inputs.directory / "groups" / f"{plan.name}.safetensors").unlink(missing_ok=True)
+    checkpoint_of(inputs.directory, plan).unlink(missing_ok=True)
     return points
+
+
+def _score_group(
+    inputs: GroupInputs,
+    plan: GroupPlan,
+    group: Sequence[Adversary],
+    advance: Callable[[int], None],
+) -> tuple[list[Scored], list[Judged]]:
+    """What is measured of each adversary, and by which referees."""
+    left = scoring_steps(inputs, plan)
+
+    def tell(env_steps: int) -> None:
+        nonlocal left
+        left -= env_steps
+        advance(env_steps)
+
+    court = Court(
+        watched(inputs.task, tell), inputs.opponent, inputs.ruler, inputs.preset, inputs.settings,
+        inputs.threads,
+    )  # fmt: skip
+    judged = judge(court, [adversary.learner.policy for adversary in group], plan.entropy)
+    scored = score(court, group, judged, plan.entropy)
+    advance(left)
+    return scored, judged
 
 
 def json_lambda(lambda_: float) -> float | str:
@@ -178,15 +148,13 @@ def train_group(
     search = search_of(inputs, plan)
     state = search.start()
     history: list[list[Row]] = [[] for _ in plan.lambdas]
-    checkpoint = inputs.directory / "groups" / f"{plan.name}.safetensors"
-    per_iteration = search.blocks * inputs.preset.episodes * inputs.task.horizon
+    checkpoint = checkpoint_of(inputs.directory, plan)
     if checkpoint.exists():
         state = load_tree(checkpoint, state)
         count = search.iteration(state)
         history = [
             _read_metrics(inputs, plan.member(i), count, checkpoint) for i in range(len(history))
         ]
-        advance(per_iteration * count)
     batch = search.blocks * inputs.preset.episodes
     world = WatchedWorld(inputs.task.make_world(batch, threads=inputs.threads), advance)
     for iteration in range(search.iteration(state), inputs.preset.iterations):

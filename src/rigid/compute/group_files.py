@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from rigid.compute.group import GroupPlan
+from rigid.compute.group_plan import GroupPlan, checkpoint_of
 from rigid.files import write_atomically
 
 
@@ -20,7 +20,7 @@ def read_group(directory: Path, plan: GroupPlan) -> dict[str, bytes]:
 
 def read_begun(directory: Path, plan: GroupPlan) -> dict[str, bytes]:
     """What a group that was interrupted goes on from; nothing where it has no checkpoint."""
-    return read_group(directory, plan) if _checkpoint(directory, plan).exists() else {}
+    return read_group(directory, plan) if checkpoint_of(directory, plan).exists() else {}
 
 
 def write_group(directory: Path, plan: GroupPlan, files: Mapping[str, bytes]) -> None:
@@ -33,7 +33,7 @@ def write_group(directory: Path, plan: GroupPlan, files: Mapping[str, bytes]) ->
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, files[name])
-    checkpoint = _checkpoint(directory, plan)
+    checkpoint = checkpoint_of(directory, plan)
     if checkpoint.relative_to(directory).as_posix() not in files:
         checkpoint.unlink(missing_ok=True)
 
@@ -44,7 +44,3 @@ def _patterns(plan: GroupPlan) -> Iterator[str]:
     for index in range(len(plan.lambdas)):
         yield f"adversaries/{plan.member(index)}/[!.]*"
         yield f"referee/{plan.member(index)}.*"
-
-
-def _checkpoint(directory: Path, plan: GroupPlan) -> Path:
-    return directory / "groups" / f"{plan.name}.safetensors"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from rigid.compute.group import GroupInputs, GroupPlan, search_of
+from rigid.compute.group_plan import GroupInputs, GroupPlan, search_of
 from rigid.compute.scoring import Court, judge, score
 from rigid.compute.timing import in_turns, spread_of, wait_for
 from rigid.frontier.largest_jump import first_lambdas

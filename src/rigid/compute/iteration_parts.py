@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Array, Float, PRNGKeyArray
 from mujoco.batch import Batch
 
-from rigid.compute.group import GroupInputs
+from rigid.compute.group_plan import GroupInputs
 from rigid.compute.scoring import play_with
 from rigid.compute.timing import wait_for
 from rigid.frontier.largest_jump import first_lambdas

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from rigid.files import write_atomically
 
 if TYPE_CHECKING:
-    from rigid.compute.group import GroupInputs, GroupPlan
+    from rigid.compute.group_plan import GroupInputs, GroupPlan
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rigid.compute.driving import drive
-from rigid.compute.group import GroupPlan, read_finished
+from rigid.compute.group_plan import GroupPlan
 from rigid.compute.process_worker import (
     Progress,
     progress_file,
@@ -29,8 +29,6 @@ from rigid.compute.seed_search import SeedSearch
 from rigid.cores import cores
 from rigid.errors import UserError
 
-GAIN_OF_PROCESSES = 1.4
-"""Work of a process for each core, over that of one process on all of them (measured on two)."""
 _PATIENCE = 0.5  # Seconds until the next look at what workers say.
 
 
@@ -112,9 +110,7 @@ class ProcessWorkers:
             ) from None
         self._hear(done, search, plan)
         progress_file(directory, plan).unlink(missing_ok=True)
-        points = read_finished(directory, plan)
-        assert points is not None
-        search.take(plan, points)
+        search.take_stored(plan)
         search.clock.keep()
 
     def cancel(self, waiting: Mapping[Future[None], Any]) -> None:

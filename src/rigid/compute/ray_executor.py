@@ -17,8 +17,8 @@ from pickle import PicklingError
 from typing import Any
 
 from rigid.compute.driving import drive
-from rigid.compute.group import GroupInputs, GroupPlan
 from rigid.compute.group_files import read_begun, write_group
+from rigid.compute.group_plan import GroupInputs, GroupPlan, all_steps, begun_steps
 from rigid.compute.process_worker import progress_file
 from rigid.compute.provenance import source_hash, versions
 from rigid.compute.ray_joining import call_at, first_line, import_ray, joined, living_nodes
@@ -129,6 +129,7 @@ class RayWorkers:
     def collect(self, done: Any, search: SeedSearch, plan: GroupPlan) -> None:
         """Writes the files of a group into its run directory."""
         directory = search.inputs.directory
+        begun = begun_steps(search.inputs, plan)  # Its worker went on from there.
         found = _found(done, f"group {plan.name} of {directory}")
         refuse_other_rigid(found.source, source_hash())
         write_group(directory, plan, found.files)
@@ -136,7 +137,8 @@ class RayWorkers:
         search.clock.add(found.core_seconds)
         search.clock.keep()
         self._warn(search, found)
-        assert search.take_finished(plan)
+        search.take_stored(plan)
+        search.advance(all_steps(search.inputs, plan) - begun)
 
     def cancel(self, waiting: Mapping[Any, tuple[SeedSearch, GroupPlan]]) -> None:
         """Stops groups: the cluster may outlive an interrupted measurement."""

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
-    from rigid.compute.group import GroupInputs
+    from rigid.compute.group_plan import GroupInputs
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,9 @@ def run_errand(errand: Errand) -> Found:
     from rigid.compute.clock import core_seconds
 
     spent = core_seconds()  # Loading JAX and the task counts.
-    from rigid.compute.group import GroupPlan, run_group
+    from rigid.compute.group import run_group
     from rigid.compute.group_files import read_group, write_group
+    from rigid.compute.group_plan import GroupPlan
     from rigid.compute.provenance import source_hash, versions
 
     plan = GroupPlan(errand.seed, errand.round, errand.lambdas)

@@ -10,19 +10,18 @@ from typing import Any
 
 import numpy as np
 
-from rigid.compute.budget import FIXED_SECONDS, TRAINING_SHARE
+from rigid.compute.budget import COMPILING_SECONDS, working_speed
 from rigid.compute.clock import Clock
 from rigid.compute.discriminators import write_discriminators
-from rigid.compute.group import GroupInputs, GroupPlan, json_lambda, training_steps
+from rigid.compute.group import json_lambda
+from rigid.compute.group_plan import GroupInputs, GroupPlan, all_steps, training_steps
 from rigid.compute.identity import settings_identity
-from rigid.compute.listening import Listener, Silence
+from rigid.compute.listening import Listener, Silence, Workload
 from rigid.compute.preparation import Prepared, lambdas_of, passive_reference, prepare, seeds_of
-from rigid.compute.processes import GAIN_OF_PROCESSES
 from rigid.compute.provenance import command_line
 from rigid.compute.run_directory import OpenRun, alone_in, check_place, check_same, open_run
 from rigid.compute.seed_search import SeedSearch
 from rigid.compute.subject import Subject, load_robot
-from rigid.cores import cores
 from rigid.files import json_text, write_atomically
 from rigid.frontier.result import load_frontier, measured_points
 from rigid.frontier.statistics import summarize_seeds
@@ -55,10 +54,20 @@ class Order:
     @property
     def env_steps(self) -> int:
         """About how many training steps they take."""
+        return self._budget.env_steps(self.subject.task.horizon)
+
+    @property
+    def all_steps(self) -> int:
+        """About how many steps they take, of training and scoring."""
+        adversaries, horizon = self._budget.adversaries, self.subject.task.horizon
+        return self.env_steps + self.preset.scoring_steps(adversaries, horizon)
+
+    @property
+    def _budget(self) -> Preset:
         budget = replace(self.preset, seeds=seeds_of(self.preset, self.seeds))
-        if self.lambdas is not None:
-            budget = replace(budget, per_round=(len(self.lambdas),))
-        return budget.env_steps(self.subject.task.horizon)
+        if self.lambdas is None:
+            return budget
+        return replace(budget, per_round=(len(self.lambdas),))
 
     def check(self) -> None:
         """Refuses what can never be measured, before any work; canonical play may tell more later.
@@ -96,15 +105,22 @@ class RobotRun:
         )
         """One for each seed, in ascending order."""
         self._open = set(opened.seeds)
+        self._done = sum(search.catch_up() for search in self.searches)
 
     def announce(self, workers: int) -> None:
         """Tells the listener how much there is to do, and about how long it takes."""
-        steps = len(self.searches) * self._steps_of_a_seed()
-        speed = TRAINING_SHARE * self._prepared.steps_per_second
-        at_a_time = min(workers, len(self.searches))
-        if workers > 1:  # The speed is that of all cores of this machine; a worker has one.
-            speed *= GAIN_OF_PROCESSES * at_a_time / len(cores())
-        self._order.listener.begin(steps, FIXED_SECONDS + steps / speed)
+        order, seeds = self._order, len(self.searches)
+        of_a_seed, of_all = self._work_of_a_seed()
+        at_a_time = min(workers, seeds)
+        order.listener.begin(
+            Workload(
+                training_steps=seeds * of_a_seed,
+                steps=seeds * of_all,
+                done=self._done,
+                steps_per_second=working_speed(self._prepared.steps_per_second, at_a_time),
+                starting=COMPILING_SECONDS,
+            )
+        )
 
     def close(self, search: SeedSearch) -> bool:
         """Sums up a seed whose search is over, and the measurement when it was the last one.
@@ -120,12 +136,15 @@ class RobotRun:
             write_atomically(self._file, json_text(self._summed_up(), indent=1).encode())
         return True
 
-    def _steps_of_a_seed(self) -> int:
-        """Environment steps of training."""
-        preset, lambdas = self._order.preset, lambdas_of(self._order.lambdas)
-        if lambdas is None:
-            return replace(preset, seeds=(0,)).env_steps(self._inputs.task.horizon)
-        return training_steps(self._inputs, GroupPlan(0, 1, lambdas))
+    def _work_of_a_seed(self) -> tuple[int, int]:
+        """Environment steps of training, and of training and scoring."""
+        lambdas, horizon = lambdas_of(self._order.lambdas), self._inputs.task.horizon
+        if lambdas is not None:
+            plan = GroupPlan(0, 1, lambdas)
+            return training_steps(self._inputs, plan), all_steps(self._inputs, plan)
+        preset = replace(self._order.preset, seeds=(0,))
+        training = preset.env_steps(horizon)
+        return training, training + preset.scoring_steps(preset.adversaries, horizon)
 
     def _summed_up(self) -> dict[str, Any]:
         """What `frontier.json` holds."""
@@ -196,9 +215,7 @@ def _costs(
     points: Sequence[dict[str, Any]], prepared: Prepared, preset: Preset, horizon: int
 ) -> dict[str, int]:
     """Environment steps of training, and of everything that only scores."""
-    episodes = preset.referee_episodes + preset.validation_episodes + preset.scoring_episodes
-    companions = 2  # Canonical episodes beside the two replays of each adversary.
-    scoring = (len(points) * (episodes + companions) + episodes) * horizon
+    scoring = preset.scoring_steps(len(points), horizon) + preset.judging_episodes * horizon
     return {
         "env_steps": sum(point["env_steps"] for point in points),
         "env_steps_scoring": scoring + prepared.env_steps,

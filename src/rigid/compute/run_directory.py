@@ -129,6 +129,20 @@ def alone_in(path: Path) -> Iterator[None]:
             (path / ".lock").unlink(missing_ok=True)
 
 
+def is_being_measured(path: Path) -> bool:
+    """Whether a living process keeps others out of a run directory; changes nothing there."""
+    try:
+        file = (path / ".lock").open()
+    except OSError:  # There is no lock, or none that we may look at.
+        return False
+    with file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)  # Let go at once, as the file closes.
+        except OSError:
+            return True
+    return False
+
+
 def open_run(
     path: Path, identity: Mapping[str, Any], seeds: Sequence[int], command: Sequence[str]
 ) -> OpenRun:

@@ -60,6 +60,11 @@ class Judged(NamedTuple):
     """Headline naturalness on validation episodes; steers the search, never the frontier."""
 
 
+Scored = tuple[dict[str, Any], dict[str, np.ndarray]]
+"""Of an adversary its entry of `frontier.json` (without id and training facts), and the arrays that
+are stored of its episodes."""
+
+
 def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) -> list[Judged]:
     """Trains the referees of each adversary on episodes of its own."""
     preset = court.preset
@@ -85,13 +90,8 @@ def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) ->
 
 def score(
     court: Court, group: Sequence[Adversary], judged: Sequence[Judged], entropy: int
-) -> list[tuple[dict[str, Any], dict[str, np.ndarray]]]:
-    """Plays fresh episodes of every adversary and measures them.
-
-    Returns:
-        For each adversary its entry of `frontier.json` (without id and training facts), and the
-        arrays that are stored of its episodes.
-    """
+) -> list[Scored]:
+    """Plays fresh episodes of every adversary and measures them."""
     rng = phase_rng(entropy, "score")
     count = court.preset.scoring_episodes
     starts = rng.integers(2**31, size=count)

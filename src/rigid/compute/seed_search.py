@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from rigid.compute.clock import Clock
-from rigid.compute.group import GroupInputs, GroupPlan, read_finished, training_steps
+from rigid.compute.group import read_finished
+from rigid.compute.group_plan import GroupInputs, GroupPlan, all_steps, begun_steps
 from rigid.compute.listening import Listener
 from rigid.frontier.search import next_round
 from rigid.presets import Preset
@@ -73,18 +74,33 @@ class SeedSearch:
         """Notes that the group of `next_plan` is done."""
         self._rounds.append(Round(plan, points))
 
-    def take_finished(self, plan: GroupPlan) -> bool:
-        """Takes the group of `next_plan` from the run directory; False where it is not done.
+    def catch_up(self) -> int:
+        """Takes the groups that earlier calls finished.
+
+        Returns:
+            Environment steps of those, and of the group that was begun.
+
+        Raises:
+            UserError: A file of them is damaged.
+        """
+        done = 0
+        while (plan := self.next_plan()) is not None:
+            points = read_finished(self.inputs.directory, plan)
+            if points is None:
+                return done + begun_steps(self.inputs, plan)
+            self.take(plan, points)
+            done += all_steps(self.inputs, plan)
+        return done
+
+    def take_stored(self, plan: GroupPlan) -> None:
+        """Takes the group of `next_plan`, which is done, from the run directory.
 
         Raises:
             UserError: Its file is damaged.
         """
         points = read_finished(self.inputs.directory, plan)
-        if points is None:
-            return False
+        assert points is not None
         self.take(plan, points)
-        self.advance(training_steps(self.inputs, plan))
-        return True
 
     def advance(self, env_steps: int) -> None:
         """Tells the listener of steps that are done, and notes the time."""

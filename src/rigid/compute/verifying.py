@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from rigid.compute import verification, verified_areas, verified_tracking
+from rigid.compute.listening import Workload
 from rigid.compute.resting import Effort
 from rigid.compute.verification import Advance, Case
 
@@ -34,14 +35,16 @@ class Plan:
             steps += verified_tracking.env_steps(self.effort)
         return steps
 
-    def seconds(self) -> float:
-        """Expected time, from the pace of a few iterations of each case."""
+    def workload(self) -> Workload:
+        """What lies ahead; its speed is that of a few iterations of each case."""
         total = sum(
             verification.seconds_per_step(case, self.effort)
             * verification.env_steps((case,), self.effort)
             for case in self.cases
         )
-        return _JUDGING * (2 if self.whole else 1) * total
+        seconds = _JUDGING * (2 if self.whole else 1) * total
+        steps = self.env_steps
+        return Workload(training_steps=steps, steps=steps, steps_per_second=steps / seconds)
 
     def run(self, advance: Advance, say: Callable[[str], None]) -> dict[str, Any]:
         """Makes the comparisons.

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from rigid.data.about import About
 from rigid.data.episodes import CanonicalEpisodes
 from rigid.errors import UserError
 from rigid.learning.rollout import Trajectories, play, policy_actor
 from rigid.policies.discrete import taken
 from rigid.policies.protocol import Policy
-from rigid.tasks.protocol import Task, World, control_period
+from rigid.tasks.protocol import Task, World, control_period, feature_units
 
 BATCH = 100
 """Episodes played side by side."""
@@ -116,4 +117,5 @@ def _keep(
         source="synthetic",
         provenance=provenance,
         control_period=control_period(task),
+        about=About(units=dict(feature_units(task))),
     )

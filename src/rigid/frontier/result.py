@@ -14,6 +14,9 @@ from rigid.files import read_bytes
 from rigid.frontier.statistics import MeasuredPoint
 
 FILE = "frontier.json"
+_CARD = "policy.json"
+"""What marks the directory of a policy: `rigid.policies.native.CARD_FILE`, whose module needs JAX,
+and so more time than the whole of a message."""
 
 
 @dataclass(frozen=True)
@@ -64,19 +67,37 @@ class Frontier:
 
     def lacking_at(self, level: float) -> str | None:
         """Says that `worst_at` rests on canonical play in some seeds; None where it does not."""
-        found, seeds = self.seeds_at(level)
-        if found == seeds:
-            return None
-        return (
-            f"{found} of {seeds} seeds found a human at naturalness ≥ {level:g}; in the others "
-            "canonical play stands there"
-        )
+        return lacking(*self.seeds_at(level), level)
 
     def report(self, path: Path | str | None = None) -> Path:
         """Writes the self-contained HTML report and returns its path."""
         from rigid.report.gather import write_report
 
         return write_report(self.directory, None if path is None else Path(path))
+
+
+def lacking(found: int, searches: int, level: float, *, called: str = "seeds") -> str | None:
+    """Says that canonical play stands where searches found no natural human; None where all did.
+
+    Args:
+        found: Searches that found one.
+        searches: Searches in all.
+        level: Least naturalness.
+        called: What they are: seeds of one robot, or searches of several.
+
+    Example:
+        >>> lacking(2, 6, 0.9)
+        '2 of 6 seeds found a human at naturalness ≥ 0.9; in the others canonical play stands there'
+    """
+    if found == searches:
+        return None
+    if searches == 1:
+        return f"the seed found no human at naturalness ≥ {level:g}: canonical play stands there"
+    where = "; in the others" if found else ": in all of them"
+    return (
+        f"{found} of {searches} {called} found a human at naturalness ≥ {level:g}{where} canonical "
+        "play stands there"
+    )
 
 
 def load_frontier(directory: Path | str) -> Frontier:
@@ -89,6 +110,8 @@ def load_frontier(directory: Path | str) -> Frontier:
     if not folder.is_dir():
         raise UserError(f"there is no directory {folder}: name a run of `rigid frontier`")
     path = folder / FILE
+    if not path.exists():
+        _refuse_what_is_no_run(folder)
     cure = "run `rigid frontier` with this --out to finish it"
     # The file that is there would make that command call the measurement complete.
     again = f"delete it and {cure}; what is trained is kept"
@@ -100,6 +123,32 @@ def load_frontier(directory: Path | str) -> Frontier:
     if wrong is not None:
         raise UserError(f"{path} is not a frontier of schema 1 ({wrong}): {again}")
     return Frontier(folder, data)
+
+
+def _refuse_what_is_no_run(folder: Path) -> None:
+    """Says what a directory without a result is, where it is no measurement to be finished."""
+    from rigid.compute.run_directory import RunDirectory, is_being_measured
+
+    if is_being_measured(folder):
+        raise UserError(f"{folder} is being measured right now: wait for it")
+    if not (folder / _CARD).exists() or RunDirectory(folder).settings.exists():
+        return
+    if _agent_of(folder / _CARD) == "human":
+        raise UserError(
+            f"{folder} is the policy of a human ({_CARD}), not a measurement: measure a robot with "
+            f"it, `rigid frontier --robot ROBOT --human {folder} --out NEW`, then name NEW"
+        )
+    raise UserError(
+        f"{folder} is a policy ({_CARD}), not a measurement: measure it, "
+        f"`rigid frontier --robot {folder} --out NEW`, then name NEW"
+    )
+
+
+def _agent_of(card: Path) -> object:
+    try:
+        return json.loads(card.read_bytes())["agent"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def _first_fault(data: object) -> str | None:

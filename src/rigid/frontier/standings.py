@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import isclose
 from typing import Any, Final
 
 from rigid.frontier.comparison import (
@@ -16,7 +17,7 @@ from rigid.frontier.comparison import (
     repeat_spread,
 )
 from rigid.frontier.methods import Method, compare_methods
-from rigid.frontier.result import Frontier
+from rigid.frontier.result import Frontier, lacking
 from rigid.frontier.successes import Played, Success, success_of
 
 TITLES: Final[Mapping[str, str]] = {
@@ -72,7 +73,7 @@ def standings_of(
 def notes_of(standings: Sequence[Standing]) -> list[str]:
     """What a reader of the comparison has to know, a sentence each."""
     baseline = standings[0]
-    notes = []
+    notes = [said for standing in standings if (said := _lacking(standing)) is not None]
     if len(baseline.robots) == 1:
         numbers = numbers_of(baseline.robots[0])
         spreads = {key: repeat_spread(numbers[key]) for key in TITLES}
@@ -94,7 +95,28 @@ def notes_of(standings: Sequence[Standing]) -> list[str]:
         f"{TITLES['hull_at']} tells robots apart more steadily: 95 % intervals of its differences "
         f"covered 94 to 96 %, those of {TITLES['worst_at']} 76 to 87 % (results/coverage)"
     )
+    if any(_is_straight(standing) for standing in standings):
+        notes.append(
+            f"{TITLES['hull_at']} equals {TITLES['auc_natural']} where the hull is a straight line "
+            "over [0.8, 1], of which 0.9 is the middle: no human that was found in between rises "
+            "above it"
+        )
     return [*notes, steadier, "lower is more robust; estimates at this search power, not bounds"]
+
+
+def _lacking(standing: Standing) -> str | None:
+    """Says of a method that canonical play stands for some of its worst humans."""
+    counts = [robot.seeds_at(HEADLINE_LEVEL) for robot in standing.robots]
+    found, searches = (sum(each) for each in zip(*counts, strict=True))
+    called = "seeds" if len(counts) == 1 else "searches"
+    said = lacking(found, searches, HEADLINE_LEVEL, called=called)
+    return None if said is None else f"{standing.method.name}: {said}"
+
+
+def _is_straight(standing: Standing) -> bool:
+    """Whether every hull is a line over [0.8, 1]: a concave one's mean is its middle only then."""
+    numbers = standing.method.numbers
+    return isclose(numbers["hull_at"].mean, numbers["auc_natural"].mean, abs_tol=1e-9)
 
 
 def unlike_pairs(methods: Mapping[str, Sequence[Measured]]) -> list[str]:

@@ -7,7 +7,7 @@ it the report simply has no replays.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -43,27 +43,38 @@ _GRID = 101
 """Places on the x axis at which the interval band is drawn."""
 
 
-def write_report(directory: Path, out: Path | None = None) -> Path:
+def write_report(
+    directory: Path, out: Path | None = None, *, drawn: Callable[[int], None] = lambda _: None
+) -> Path:
     """Writes the report of a finished run and returns its path (`report.html` in the run).
 
     Beside it goes `failures.json`, unless the report goes elsewhere.
+
+    Args:
+        directory: Of the run.
+        out: Where to write it instead.
+        drawn: Told of adversaries whose replays are ready, one at a time.
 
     Raises:
         UserError: The run is not finished, a file of it is damaged, or `out` cannot be written.
     """
     run = RunDirectory(directory)
     frontier = load_frontier(directory)
-    payload = gather(frontier, read_settings(run))
+    payload = gather(frontier, read_settings(run), drawn)
     path = build_report(payload, out or run.report)
     if out is None:
         write_failures(frontier, payload["failures"])
     return path
 
 
-def gather(frontier: Frontier, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """The report's `Payload`, read from the run directory of `frontier`."""
+def gather(
+    frontier: Frontier,
+    settings: Mapping[str, Any],
+    drawn: Callable[[int], None] = lambda _: None,
+) -> dict[str, Any]:
+    """The report's `Payload`, read from the run directory of `frontier`; see `write_report`."""
     task = task_of(settings)
-    shown = None if task is None else replays(frontier, task)
+    shown = None if task is None else replays(frontier, task, drawn)
     scene = None if task is None else task.scene()
     return {
         "frontier": {**frontier.data, "points": _blamed(frontier)},
@@ -131,7 +142,9 @@ def learning_curves(adversary: Path) -> dict[str, list[float]]:
         raise UserError(f"{path} is damaged: {cure}") from None
 
 
-def replays(frontier: Frontier, task: Task) -> dict[str, Any] | None:
+def replays(
+    frontier: Frontier, task: Task, drawn: Callable[[int], None] = lambda _: None
+) -> dict[str, Any] | None:
     """Worst and median episode of every adversary, and canonical motion from the same starts.
 
     Each episode of an adversary comes with its `failure`. None when the task shows nothing of an
@@ -155,6 +168,7 @@ def replays(frontier: Frontier, task: Task) -> dict[str, Any] | None:
             seen = None if faulted else read_episode(scene, played)
             entry[kind] = {**_packed(played), "failure": classify(seen, beside[seed])}
         shown[point["id"]] = entry
+        drawn(1)
     return shown
 
 

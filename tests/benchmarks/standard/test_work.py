@@ -8,9 +8,15 @@ import pytest
 
 from benchmarks.standard.making import Workplace
 from benchmarks.standard.plan import Part
-from benchmarks.standard.work import Work, search_seconds, training_seconds, work_of
+from benchmarks.standard.work import (
+    GAIN_OF_PROCESSES,
+    Work,
+    search_seconds,
+    training_seconds,
+    work_of,
+)
 from rigid.compute.executors import Local
-from rigid.compute.processes import GAIN_OF_PROCESSES, Processes
+from rigid.compute.processes import Processes
 from rigid.cores import cores
 from tests.benchmarks.standard.planting import SMALL, VANILLA, store_robot
 

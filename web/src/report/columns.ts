@@ -34,10 +34,13 @@ export const COLUMNS: readonly Column[] = [
   { name: "frontier", key: (p) => Number(p.onFrontier), text: (p) => yes(p.onFrontier), numeric: false },
 ];
 
-/** The columns to show: what nobody asked for (`rigid blame`) has none. */
+/** Columns of what not every task or run knows. */
+const OPTIONAL = new Set(["success", "unwanted", "peak force [N]", "impulse [N·s]", "regret"]);
+
+/** The columns to show: what is known of nobody, such as forces in a task without any, has none. */
 export function columnsOf(points: readonly Point[]): readonly Column[] {
-  const blamed = points.some((point) => point.regret !== null);
-  return COLUMNS.filter((column) => blamed || column.name !== "regret");
+  return COLUMNS.filter((column) =>
+    !OPTIONAL.has(column.name) || points.some((point) => column.key(point) !== null));
 }
 
 /** Points in the order of a column; unknown values come last either way, ties keep their order. */

@@ -7,7 +7,7 @@ import { interval } from "../base/read.js";
 import type { Signal } from "../base/signal.js";
 import { seedsOf } from "./measures.js";
 import type { Payload, Point } from "./payload.js";
-import { axisSentence, isPassive, label, lines, rangeSource } from "./words.js";
+import { axisSentence, isPassive, label, lines, rangeSource, watchable } from "./words.js";
 
 function markOf(point: Point, range: readonly [number, number]): FrontierMark[] {
   const { naturalness: x, adversarialness: y } = point;
@@ -69,7 +69,7 @@ function frontierCaption(payload: Payload): HTMLElement {
   return caption(
     `Each mark is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale}`,
     `${axisSentence(payload)} The boundary is what this search found, not the worst there is.`.trim(),
-    "Choose a mark to watch it; arrow keys walk from mark to mark.",
+    `Choose a mark to ${watchable(payload) ? "watch it" : "read its numbers"}; arrow keys walk from mark to mark.`,
   );
 }
 

@@ -13,6 +13,7 @@ import { readPayload, type Payload, type Point } from "./payload.js";
 import { provenance } from "./provenance.js";
 import { replayPanel, type Moment } from "./replay-panel.js";
 import { pointsTable } from "./table.js";
+import { watchable } from "./words.js";
 
 /** The chosen id, kept in the address so that a link can point at a failure. */
 function selection(payload: Payload): { readonly id: Signal<string | null>; readonly point: Signal<Point | null> } {
@@ -42,14 +43,18 @@ function page(payload: Payload): HTMLElement {
   const { id, point } = selection(payload);
   const physical = forcesArePhysical(payload.settings);
   const moment = new Signal<Moment | null>(null);
+  const motion = replayPanel(payload, point, physical, moment);
+  const chosen = details(payload, point, physical);
+  const moving = watchable(payload);
   return h("div", { class: "page" },
     masthead(payload),
     h("main", {},
       headlines(payload),
       h("div", { class: "stage" },
         frontierFigure(payload, id),
-        replayPanel(payload, point, physical, moment)),
-      details(payload, point, physical),
+        // Without motion its place is the numbers', beside the chart.
+        moving ? motion : h("div", { class: "numbers-alone" }, chosen, motion)),
+      moving && chosen,
       failureModes(payload, id, physical, (example) => {
         id.value = example.id;
         moment.value = { which: example.which, frame: example.frame };

@@ -82,5 +82,5 @@ function success(payload: Payload): HTMLElement {
       from !== null && h("span", { class: "rail-tick faint", style: `left: ${100 * from}%` }),
       to !== null && h("span", { class: "rail-tick", style: `left: ${100 * to}%` })),
     h("p", { class: "interval" }, "canonical → worst at ≥ 0.9"),
-    h("p", { class: "note" }, "mean over seeds"));
+    h("p", { class: "note" }, from === null && to === null ? "this task tells no success" : "mean over seeds"));
 }

@@ -10,7 +10,7 @@ import { tellingFrame } from "../replay/pose.js";
 import { View } from "../replay/view.js";
 import type { Payload, Point } from "./payload.js";
 import { transport, type Which } from "./transport.js";
-import { outcomeText, title } from "./words.js";
+import { outcomeText, title, watchable } from "./words.js";
 
 /** A moment of an episode of the chosen human, to be shown. */
 export interface Moment {
@@ -79,11 +79,11 @@ function pictureKey(goal: string): HTMLElement {
 export function replayPanel(
   payload: Payload, chosen: Signal<Point | null>, physical: boolean, moment: Signal<Moment | null>,
 ): HTMLElement {
-  if (!payload.replays.stored || !payload.scene) {
+  if (!watchable(payload) || !payload.scene) {
     return h("section", { class: "replay", "aria-label": "Replay" },
       h("p", { class: "empty" }, payload.scene
-        ? "Replays were not stored with this frontier, so there is no motion to show."
-        : "This report knows nothing to draw of this task, so there is no motion to show; the numbers tell all there is."));
+        ? "Replays were not stored with this frontier, so there is no motion to watch."
+        : "This task shows no picture, so there is no motion to watch."));
   }
   const { goal } = payload.scene;
   const clock = new Clock();

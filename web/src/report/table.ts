@@ -4,6 +4,7 @@ import { button, caption, h, on } from "../base/dom.js";
 import type { Signal } from "../base/signal.js";
 import { columnsOf, csv, sorted, type Column } from "./columns.js";
 import type { Payload, Point } from "./payload.js";
+import { watchable } from "./words.js";
 
 function row(point: Point, columns: readonly Column[], choose: (id: string) => void): HTMLTableRowElement {
   const [first, ...rest] = columns;
@@ -47,7 +48,7 @@ export function pointsTable(payload: Payload, chosen: Signal<string | null>, phy
       h("table", { class: "points" }, h("thead", {}, h("tr", {}, ...heads)), body)),
     caption(
       "Everyone the search found, dominated ones included. The CSV holds every field of frontier.json.",
-      physical ? "" : "Forces are not physical: the paper's servo caps every joint at 1 N·m.",
-      "Choose a row to watch it, a heading to sort.",
+      physical || !columns.some(({ name }) => name.startsWith("peak force")) ? "" : "Forces are not physical: the paper's servo caps every joint at 1 N·m.",
+      `Choose a row to ${watchable(payload) ? "watch it" : "read its numbers"}, a heading to sort.`,
     ));
 }

@@ -37,6 +37,11 @@ export function label(point: Point): string {
   return `${lines(point).slice(0, 4).join(", ")}, ${place}`;
 }
 
+/** Whether there is motion to watch: the task has a picture, and episodes were stored. */
+export function watchable(payload: Payload): boolean {
+  return payload.replays.stored && payload.scene !== null;
+}
+
 /** An episode's outcome as people say it. */
 export function outcomeText(outcome: string): string {
   return NAMES[outcome] ?? outcome;
