@@ -17,8 +17,8 @@ from rigid.compute.convergence import convergence
 from rigid.compute.endings import measure
 from rigid.compute.group import train_group
 from rigid.compute.group_plan import GroupInputs, GroupPlan
+from rigid.compute.playing import play_with
 from rigid.compute.preparation import Prepared, prepare
-from rigid.compute.scoring import play_with
 from rigid.compute.subject import Subject
 from rigid.learning.group_play import group_actor, phase_rng
 from rigid.naturalness.features import DEFAULT

@@ -13,7 +13,7 @@ from benchmarks.kept import has_policy, keep_policy
 from benchmarks.paper.places import Places
 from benchmarks.paper.plan import Plan
 from rigid.commands.progress import TerminalListener
-from rigid.commands.training_progress import show_progress
+from rigid.commands.training_progress import show_progress, show_stages
 from rigid.compute.subject import CANONICAL_FILE
 from rigid.data.episodes import save_episodes
 from rigid.data.recording import record
@@ -128,8 +128,10 @@ class Making:
     def _train_gleave(self, seed: int, place: Path) -> None:
         settings = self._plan.budgets.gleave
         with (
-            show_progress(f"population {seed}", settings.population.iterations) as of_population,
-            show_progress(f"gleave {seed}", settings.personalisation.iterations) as report,
+            show_stages(
+                (f"population {seed}", settings.population.iterations),
+                (f"gleave {seed}", settings.personalisation.iterations),
+            ) as (of_population, report),
         ):
             train_gleave(
                 self._task, settings, pair=self.pair(seed), seed=seed, out=place,
@@ -140,8 +142,10 @@ class Making:
     def _train_palm(self, seed: int, place: Path) -> None:
         recipe = self._plan.budgets.palm
         with (
-            show_progress(f"diverse pair {seed}", recipe.diverse.iterations) as report_diverse,
-            show_progress(f"palm {seed}", recipe.palm.personalisation.iterations) as report,
+            show_stages(
+                (f"diverse pair {seed}", recipe.diverse.iterations),
+                (f"palm {seed}", recipe.palm.personalisation.iterations),
+            ) as (report_diverse, report),
         ):
             train_palm(
                 self._task, recipe, pair=self.pair(seed), seed=seed, out=place,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rigid.commands.training_progress import show_progress
+from rigid.commands.training_progress import show_progress, show_stages
 from rigid.learning.cooptimisation import Progress
 
 
@@ -96,6 +96,23 @@ def test_the_bar_of_a_robot_names_its_recipe(rigid, toys, tmp_path, monkeypatch)
     monkeypatch.setattr(vanilla, "train_vanilla", train)
     options = ("--task", "toy-reach", "--pair", toys, "--out", tmp_path / "robot")
     assert "training vanilla" in rigid("train", "vanilla", *options)[2]
+
+
+def test_of_two_stages_only_the_one_that_is_under_way_has_a_running_clock():
+    with show_stages(("population", 2), ("robot", 3)) as (first, second):
+        one, two = first._bar.tasks
+        assert (one.elapsed is None, two.elapsed is None) == (False, True)
+        first(Progress(1, 0.0, 0.5, 0.1))
+        assert one.stop_time is not None
+        assert two.elapsed is not None
+        second(Progress(0, 0.0, 0.5, 0.1))
+        assert (one.completed, two.completed) == (2, 1)
+
+
+def test_a_stage_whose_predecessor_was_stored_earlier_begins_by_itself():
+    with show_stages(("population", 2), ("robot", 3)) as (_, second):
+        second(Progress(0, 0.0, 0.5, 0.1))
+        assert second._bar.tasks[1].elapsed is not None
 
 
 def test_a_bar_moves_within_a_slow_iteration_and_never_beyond_it(monkeypatch):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from examples.motion_capture import MAP, record_people
-from rigid.compute.scoring import play_with
+from rigid.compute.playing import play_with
 from rigid.learning.rollout import policy_actor
 from rigid.policies.loading import load_policy
 from rigid.tasks.itch_scratching.task import ItchScratching

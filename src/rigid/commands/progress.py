@@ -49,7 +49,9 @@ class TimeColumn(ProgressColumn):
 
     def render(self, task: Bar) -> Text:
         """The times of one bar."""
-        return Text(f"{clock(task.elapsed or 0.0)} so far{self.rest(task)}")
+        if task.elapsed is None:  # Another one comes first.
+            return Text("")
+        return Text(f"{clock(task.elapsed)} so far{self.rest(task)}")
 
     def rest(self, task: Bar) -> str:
         """What is still to come."""

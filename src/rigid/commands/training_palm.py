@@ -9,7 +9,7 @@ import tyro
 
 from rigid.commands.parsing import at_least
 from rigid.commands.stopping import goes_on
-from rigid.commands.training_progress import show_progress
+from rigid.commands.training_progress import show_stages
 from rigid.commands.training_robots import RobotOptions
 
 
@@ -44,8 +44,10 @@ class PalmCommand(RobotOptions):
             diverse = replace(diverse, iterations=self.diverse_iterations)
         with (
             goes_on(self.out),
-            show_progress("co-optimising a diverse pair", diverse.iterations) as report_diverse,
-            show_progress("training palm", palm.personalisation.iterations) as report,
+            show_stages(
+                ("co-optimising a diverse pair", diverse.iterations),
+                ("training palm", palm.personalisation.iterations),
+            ) as (report_diverse, report),
         ):
             error = train_palm(
                 self.open_task(), replace(recipe, diverse=diverse, palm=palm),

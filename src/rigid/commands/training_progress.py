@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from math import isnan
 from typing import TYPE_CHECKING, final
 
@@ -24,11 +25,19 @@ class Shown:
     ) -> None:
         self._bar, self._console = bar, console
         self._what, self._iterations = what, iterations
-        self._task = bar.add_task(what, total=iterations, done=0)
+        self._task = bar.add_task(what, total=iterations, done=0, start=False)
         self._done, self._within = 0, 0.0
+        self.then: Shown | None = None
+        """The stage that follows."""
+
+    def start(self) -> None:
+        """Its clock runs from now on, if it does not yet."""
+        if self._bar.tasks[self._task].start_time is None:
+            self._bar.start_task(self._task)
 
     def __call__(self, progress: Progress) -> None:
         """An iteration is done."""
+        self.start()  # Of a stage before it nothing is heard when that was stored earlier.
         seen = f"return {progress.mean_return:.1f}"
         if not isnan(progress.success):  # Of a task that defines none.
             seen += f" · success {progress.success:.2f}"
@@ -41,6 +50,9 @@ class Shown:
             self._console.print(
                 f"{self._what} {self._done}/{self._iterations} · {seen}", highlight=False
             )
+        if self._done == self._iterations and self.then is not None:
+            self._bar.stop_task(self._task)
+            self.then.start()
 
     def within(self, task: Task, episodes: int) -> Task:
         """The same task, whose steps move the bar within iterations of so many episodes."""
@@ -58,13 +70,23 @@ class Shown:
 
 
 @contextmanager
-def show_progress(what: str, iterations: int, after: str = "storing") -> Iterator[Shown]:
+def show_progress(what: str, iterations: int) -> Iterator[Shown]:
     """A progress bar over iterations with the newest return and success.
 
     Args:
         what: Is trained.
         iterations: How many there are.
-        after: What is done once they are over.
+    """
+    with show_stages((what, iterations)) as (shown,):
+        yield shown
+
+
+@contextmanager
+def show_stages(*stages: tuple[str, int]) -> Iterator[list[Shown]]:
+    """Such a bar for each of several trainings that follow one another, with a clock of its own.
+
+    Args:
+        stages: What is trained, and the number of its iterations.
     """
     from rich.console import Console
     from rich.progress import TextColumn
@@ -74,5 +96,9 @@ def show_progress(what: str, iterations: int, after: str = "storing") -> Iterato
 
     console = Console(stderr=True)
     counted = TextColumn("{task.fields[done]}/{task.total}", table_column=Column(no_wrap=True))
-    with bar_of(console, counted, TimeColumn(after)) as bar:
-        yield Shown(bar, console, what, iterations)
+    with bar_of(console, counted, TimeColumn("storing")) as bar:
+        shown = [Shown(bar, console, what, iterations) for what, iterations in stages]
+        for stage, then in pairwise(shown):
+            stage.then = then
+        shown[0].start()
+        yield shown

@@ -11,7 +11,7 @@ import tyro
 from rigid.commands.naming import TaskOptions
 from rigid.commands.parsing import at_least
 from rigid.commands.stopping import goes_on
-from rigid.commands.training_progress import show_progress
+from rigid.commands.training_progress import show_progress, show_stages
 
 _count = tyro.conf.arg(metavar="INT")
 
@@ -149,8 +149,10 @@ class GleaveCommand(RobotOptions):
         )
         with (
             goes_on(self.out),
-            show_progress("co-optimising a population", population.iterations) as of_population,
-            show_progress("training gleave", personalisation.iterations) as report,
+            show_stages(
+                ("co-optimising a population", population.iterations),
+                ("training gleave", personalisation.iterations),
+            ) as (of_population, report),
         ):
             train_gleave(
                 task, settings, pair=self.pair, seed=self.seed, out=self.out,

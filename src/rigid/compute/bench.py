@@ -26,8 +26,9 @@ from rigid.compute.clock import Clock
 from rigid.compute.group import run_group
 from rigid.compute.group_plan import GroupInputs, GroupPlan
 from rigid.compute.iteration_parts import Iteration
+from rigid.compute.playing import play_with
 from rigid.compute.preparation import prepare, settings_for
-from rigid.compute.scoring import play_with, seen_by_referee
+from rigid.compute.scoring import seen_by_referee
 from rigid.compute.subject import Subject
 from rigid.compute.timing import in_turns, spread_of, timed
 from rigid.errors import UserError

@@ -8,7 +8,8 @@ import jax
 import numpy as np
 
 from rigid.compute.canonical import FEWEST, MOST_FOR_FOLDS
-from rigid.compute.scoring import naturalness_of, play_with
+from rigid.compute.playing import play_with
+from rigid.compute.scoring import naturalness_of
 from rigid.data.episodes import CanonicalEpisodes
 from rigid.learning.rollout import Trajectories, policy_actor
 from rigid.naturalness.features import DEFAULT, choose_features

@@ -20,10 +20,10 @@ from rigid.compute.doctor_steps import (
 )
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
+from rigid.compute.playing import play_with
 from rigid.compute.preparation import settings_for
 from rigid.compute.provenance import command_line, provenance
 from rigid.compute.robot_run import Order
-from rigid.compute.scoring import play_with
 from rigid.compute.subject import Subject, load_players
 from rigid.doctor.features import check_features
 from rigid.doctor.reward import Play, check_reward

@@ -16,7 +16,7 @@ from jaxtyping import Array, Float, PRNGKeyArray
 from mujoco.batch import Batch
 
 from rigid.compute.group_plan import GroupInputs
-from rigid.compute.scoring import play_with
+from rigid.compute.playing import play_with
 from rigid.compute.timing import wait_for
 from rigid.frontier.largest_jump import first_lambdas
 from rigid.learning.adversary import (

@@ -20,13 +20,9 @@ from rigid.compute.canonical import (
 )
 from rigid.compute.endings import ended, measure
 from rigid.compute.identity import identity_of
+from rigid.compute.playing import play_in_turns, play_with
 from rigid.compute.return_range import ReturnRange, range_in_force
-from rigid.compute.scoring import (
-    Ruler,
-    naturalness_of,
-    play_with,
-    seen_by_referee,
-)
+from rigid.compute.scoring import Ruler, naturalness_of, seen_by_referee
 from rigid.compute.subject import Subject, canonical_path, load_players
 from rigid.data.episodes import CanonicalEpisodes, load_episodes
 from rigid.data.recording import record
@@ -120,8 +116,9 @@ def passive_reference(task: Task, prepared: Prepared, preset: Preset) -> dict[st
     rng = phase_rng(0, "referee")
     parts = (preset.referee_episodes, preset.validation_episodes, preset.scoring_episodes)
     starts = rng.integers(2**31, size=sum(parts))
-    actor = policy_actor(human, len(starts), None)
-    episodes = play_with(task, prepared.opponent.robot, actor, starts)
+    episodes = play_in_turns(
+        task, prepared.opponent.robot, lambda worlds: policy_actor(human, worlds, None), starts
+    )
     ends = np.cumsum(parts)
     splits = (slice(0, ends[0]), slice(ends[0], ends[1]), slice(ends[1], None))
     train, validation, test = (seen_by_referee(episodes, part) for part in splits)

@@ -15,7 +15,8 @@ import numpy as np
 
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
-from rigid.compute.scoring import play_with, seen_by_referee
+from rigid.compute.playing import play_with
+from rigid.compute.scoring import seen_by_referee
 from rigid.compute.subject import Subject, load_players
 from rigid.compute.verdict import Gate, Verdict, at_least, ends_gates, planted_gates
 from rigid.data.recording import record

@@ -11,16 +11,16 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from rigid.compute.endings import Ended, ended, measure
+from rigid.compute.playing import play_in_turns, play_with
 from rigid.learning.adversary import Adversary, own_scores
 from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.group_play import Opponent, group_actor, phase_rng
-from rigid.learning.rollout import Actor, Trajectories, play, policy_actor
+from rigid.learning.rollout import Trajectories, policy_actor
 from rigid.naturalness.panel import AXIS, Fold, Panel, naturalness, train_panels
 from rigid.naturalness.rates import rate
 from rigid.naturalness.referee import RefereeSettings
 from rigid.naturalness.views import Episodes
 from rigid.policies.gaussian import GaussianParameters, GaussianPolicy
-from rigid.policies.protocol import Policy
 from rigid.presets import Preset
 from rigid.tasks.protocol import Task
 
@@ -71,8 +71,8 @@ def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) ->
     rng = phase_rng(entropy, "referee")
     count = preset.referee_episodes + preset.validation_episodes
     starts = rng.integers(2**31, size=count)
-    episodes = play_with(
-        court.task, court.opponent.robot, group_actor(policies, rng), starts,
+    episodes = play_in_turns(
+        court.task, court.opponent.robot, lambda _: group_actor(policies, rng), starts,
         humans=len(policies), threads=court.threads,
     )  # fmt: skip
     parts = slice(preset.referee_episodes), slice(preset.referee_episodes, None)
@@ -97,8 +97,8 @@ def score(
     starts = rng.integers(2**31, size=count)
     policies = [adversary.learner.policy for adversary in group]
     snapshots: list[np.ndarray] = []
-    episodes = play_with(
-        court.task, court.opponent.robot, group_actor(policies, rng), starts,
+    episodes = play_in_turns(
+        court.task, court.opponent.robot, lambda _: group_actor(policies, rng), starts,
         humans=len(group), snapshots=snapshots, threads=court.threads,
     )  # fmt: skip
     endings = ended(episodes)
@@ -150,38 +150,6 @@ def seen_by_referee(episodes: Trajectories, mine: slice = slice(None)) -> Episod
     """Some of the episodes that were played, as referees take them."""
     features, weight = episodes.features[:, mine], episodes.weight[:, mine]
     return Episodes(features.swapaxes(0, 1), weight.swapaxes(0, 1) > 0)
-
-
-def play_with(
-    task: Task,
-    robot: Policy,
-    human: Actor,
-    starts: Int[np.ndarray, " n"],
-    *,
-    humans: int = 1,
-    snapshots: list[np.ndarray] | None = None,
-    threads: int = 0,
-) -> Trajectories:
-    """Plays episodes from `starts` with each of several humans, in one set of worlds.
-
-    Args:
-        task: The task.
-        robot: Acts by its mean.
-        human: Acts for all humans at once; their worlds follow one another in equal blocks.
-        starts: Episode seeds, the same for every human.
-        humans: How many there are.
-        snapshots: Is given one entry a step, for replays.
-        threads: That step the worlds; 0: every core.
-    """
-    seeds = np.tile(starts, humans)
-    world = task.make_world(len(seeds), threads=threads)
-
-    def keep(*_: object) -> None:
-        if snapshots is not None:
-            snapshots.append(world.snapshot())
-
-    actor = policy_actor(robot, len(seeds), None)
-    return play(task, world, seeds, actor, human, watch=keep)
 
 
 def _canonical_companions(

@@ -19,6 +19,7 @@ from rigid.policies.discrete import taken
 from rigid.tasks.protocol import (
     AgentSpec,
     BoundedTask,
+    LimitsWorlds,
     Step,
     Summary,
     Task,
@@ -142,6 +143,8 @@ class _SeenTask:
         self.feature_units = {name: own[name] for name in features.names if name in own}
         if isinstance(task, BoundedTask):
             self.bounds = task.bounds
+        if isinstance(task, LimitsWorlds):
+            self.most_worlds = task.most_worlds
 
     def make_world(self, batch: int, *, threads: int = 0) -> World:
         return _SeenWorld(self._task, self._features, batch, threads)

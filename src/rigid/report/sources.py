@@ -152,7 +152,7 @@ def played(task: Task, robot: str, human: str, seed: int, opening: Opening = SAF
     Raises:
         UserError: A policy does not fit, or the task's episodes cannot be drawn.
     """
-    from rigid.compute.scoring import play_with
+    from rigid.compute.playing import play_with
     from rigid.learning.rollout import policy_actor
     from rigid.policies.loading import load_policy
 

@@ -172,6 +172,14 @@ class NamesUnits(Protocol):
 
 
 @runtime_checkable
+class LimitsWorlds(Protocol):
+    """A task whose worlds are too heavy for hundreds of them; optional."""
+
+    most_worlds: int
+    """At a time, where episodes are only played; training has as many as its episodes."""
+
+
+@runtime_checkable
 class BoundedTask(Task, Protocol):
     """A task that says how large what its agents see can get; optional."""
 

@@ -19,7 +19,7 @@ from rigid.serving.child import Command
 from rigid.serving.session import START_SECONDS, PerProcess, Session, opened_again
 from rigid.tasks.bridges.command_promise import TaskPromise
 from rigid.tasks.bridges.command_world import CommandWorld
-from rigid.tasks.bridges.task import OUTCOMES
+from rigid.tasks.bridges.task import MOST_WORLDS, OUTCOMES
 from rigid.tasks.protocol import Step
 
 _SAME_START = 1e-3
@@ -31,6 +31,7 @@ class CommandTask:
     """A two-player task that a program serves."""
 
     outcome_names: tuple[str, ...] = OUTCOMES
+    most_worlds = MOST_WORLDS
     holds_after_end = True
     """See `rigid.naturalness.features.choose_features`."""
 

@@ -15,6 +15,9 @@ from rigid.tasks.bridges.pool import Lease, Pool
 from rigid.tasks.protocol import AgentSpec, Step, Summary
 
 OUTCOMES = ("ran its time", "ended early")
+MOST_WORLDS = 128
+"""Environments at a time where episodes are only played: a simulator that is not batched takes some
+10 to 50 MB for each, and a group of adversaries is scored on a thousand episodes. Ours."""
 
 
 class BridgeTask:
@@ -25,6 +28,7 @@ class BridgeTask:
     """
 
     outcome_names: tuple[str, ...] = OUTCOMES
+    most_worlds = MOST_WORLDS
     return_range: tuple[float, float] | None = None
     holds_after_end = True
     """See `rigid.naturalness.features.choose_features`."""

@@ -12,7 +12,7 @@ from rigid.tasks.protocol import Step, Task, World
 
 _OPTIONAL = (
     "builtin_policies", "shown_human", "diversified", "human_poses", "control_period",
-    "feature_units", "bounds",
+    "feature_units", "bounds", "most_worlds",
 )  # fmt: skip
 """Members of the protocols that a task may keep besides `Task`. `isinstance` looks for them among
 an object's own attributes, so that passing them on when they are asked for would not do."""
