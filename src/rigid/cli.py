@@ -9,7 +9,7 @@ import functools
 import operator
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from typing import Annotated, Any, Protocol, runtime_checkable
 
@@ -19,18 +19,19 @@ from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
 from rigid.commands.calibrating import CalibrateCommand
 from rigid.commands.comparing import CompareCommand
-from rigid.commands.data import DataCommand
+from rigid.commands.data import DATA
 from rigid.commands.doctoring import DoctorCommand
 from rigid.commands.exporting import ExportCommand
 from rigid.commands.gating import GateCommand
+from rigid.commands.groups import Group
 from rigid.commands.helping import described, fitted_help, summary
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.pairing import PairsCommand
 from rigid.commands.parsing import printable
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
-from rigid.commands.study import StudyCommand
-from rigid.commands.training import TrainCommand
+from rigid.commands.study import STUDY
+from rigid.commands.training import TRAIN
 from rigid.commands.verifying import VerifyCommand
 from rigid.commands.wrapping import tell
 from rigid.compute.threads import fix_xla_threads
@@ -47,7 +48,7 @@ class _Runs(Protocol):
     def run(self) -> int: ...
 
 
-_COMMANDS: dict[str, type[_Runs]] = {
+_COMMANDS: dict[str, type[_Runs] | Group] = {
     "demo": DemoCommand,
     "frontier": FrontierCommand,
     "report": ReportCommand,
@@ -55,12 +56,12 @@ _COMMANDS: dict[str, type[_Runs]] = {
     "gate": GateCommand,
     "blame": BlameCommand,
     "pairs": PairsCommand,
-    "study": StudyCommand,
+    "study": STUDY,
     "export": ExportCommand,
     "bench": BenchCommand,
-    "train": TrainCommand,
+    "train": TRAIN,
     "record": RecordCommand,
-    "data": DataCommand,
+    "data": DATA,
     "evaluate": EvaluateCommand,
     "verify": VerifyCommand,
     "referee": RefereeCommand,
@@ -118,26 +119,29 @@ def parse(arguments: Sequence[str]) -> _Runs:
         tyro.conf.FlagCreatePairsOff,
     )
     given = list(arguments)
-    kinds = _kinds(with_examples=given[:1] not in (["--help"], ["-h"]))
     with fitted_help(given):
         command: _Runs = tyro.cli(
-            kinds, args=given, prog="rigid", description=__doc__, config=config
+            _kinds(_COMMANDS, given), args=given, prog="rigid", description=__doc__, config=config
         )
     return command
 
 
-def _kinds(*, with_examples: bool) -> Any:
-    """The union of all commands. tyro drops examples from a docstring, and lists what it is told.
+def _kinds(commands: Mapping[str, type[_Runs] | Group], named: Collection[str]) -> Any:
+    """The union of some commands. tyro drops examples from a docstring, and lists what it is told.
 
-    So a command's own help is told its whole docstring, and the list of commands its first
-    paragraph. The list itself is told what it is, or tyro would look for that in the source of
-    Python's `typing`, which takes a fifth of the time of `rigid --help`.
+    So a command that is named is told its whole docstring for its own help, and those of a list
+    their first paragraph. The list itself is told what it is, or tyro would look for that in the
+    source of Python's `typing`, which takes a fifth of the time of `rigid --help`.
     """
 
-    def kind(name: str, command: type[_Runs]) -> Any:
-        text = described(command) if with_examples else summary(command)
-        return Annotated[command, tyro.conf.subcommand(name, description=text)]
+    def kind(name: str, command: type[_Runs] | Group) -> Any:
+        if isinstance(command, Group):
+            text, chosen = command.about, _kinds(command.members, named)
+        else:
+            text = described(command) if name in named else summary(command)
+            chosen = command
+        return Annotated[chosen, tyro.conf.subcommand(name, description=text)]
 
-    kinds = (kind(name, command) for name, command in _COMMANDS.items())
+    kinds = (kind(name, command) for name, command in commands.items())
     union = functools.reduce(operator.or_, kinds)
     return Annotated[union, tyro.conf.arg(help="what to do")]

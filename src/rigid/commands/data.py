@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import tyro
 
 from rigid.commands.data_looking import CheckCommand, ShowCommand
-from rigid.commands.groups import member
+from rigid.commands.groups import Group
 from rigid.commands.naming import TaskOptions
 from rigid.commands.places import new_file
 from rigid.commands.wrapping import tell
@@ -183,18 +183,12 @@ class ExportCommand:
         return 0
 
 
-@dataclass(frozen=True)
-class DataCommand:
-    """Canonical episodes from people: import, look at, check, export."""
-
-    what: (
-        Annotated[ImportCommand, member("import", ImportCommand)]
-        | Annotated[ShowCommand, member("show", ShowCommand)]
-        | Annotated[CheckCommand, member("check", CheckCommand)]
-        | Annotated[ExportCommand, member("export", ExportCommand)]
-    )
-    """What to do."""
-
-    def run(self) -> int:
-        """Runs the chosen command."""
-        return self.what.run()
+DATA = Group(
+    "Canonical episodes from people: import, look at, check, export.",
+    {
+        "import": ImportCommand,
+        "show": ShowCommand,
+        "check": CheckCommand,
+        "export": ExportCommand,
+    },
+)

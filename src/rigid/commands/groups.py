@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import tyro
-
-from rigid.commands.helping import described
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 
-def member(name: str, command: type) -> Any:
-    """How a command is called within its group; its help is its whole docstring.
+@dataclass(frozen=True)
+class Group:
+    """A choice of commands."""
 
-    Args:
-        name: On the command line.
-        command: Annotated with what this returns.
-    """
-    return tyro.conf.subcommand(name, description=described(command))
+    about: str
+    """What they have in common, for its help."""
+    members: Mapping[str, type]
+    """By what they are called, in the order in which help lists them."""
