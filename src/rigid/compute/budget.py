@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from rigid.cores import cores
 from rigid.errors import UserError
 from rigid.learning.conditioned import Sharing
 from rigid.presets import Preset
@@ -18,6 +17,9 @@ from rigid.tasks.protocol import Task
 LEARNING_SECONDS = 1.5e-4
 """Time that learning takes one process for each step, beside the step itself [s]; for estimates of
 time only (measured .9e-4 to 2.3e-4)."""
+_ON_ONE_CORE = 1.4
+"""Time that stepping takes on one core, over that on all; for estimates of time only (measured 1.4
+to 1.7 on two: policies and what Python does are not divided among threads)."""
 COMPILING_SECONDS = 25.0
 """Compilation of training and referees (measured 20-40 s)."""
 FIXED_SECONDS = 40.0
@@ -42,11 +44,11 @@ def working_speed(stepping: float, workers: int = 1) -> float:
     """Expected steps per second of training and scoring.
 
     Args:
-        stepping: Plain steps per second of one process on all cores of this machine.
+        stepping: Steps per second without learning, of one process on all cores of this machine.
         workers: One process on all cores, or so many with a core each.
     """
-    threads = 1 if workers == 1 else len(cores())  # That a worker does without.
-    return workers / (threads / stepping + LEARNING_SECONDS)
+    slower = 1.0 if workers == 1 else _ON_ONE_CORE
+    return workers / (slower / stepping + LEARNING_SECONDS)
 
 
 def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: float) -> Preset:
