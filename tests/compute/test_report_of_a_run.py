@@ -12,7 +12,7 @@ import pytest
 from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.frontier.curve import hull_at
-from rigid.frontier.result import load_frontier
+from rigid.frontier.result import Frontier, load_frontier
 from rigid.report.gather import gather, replays, write_report
 from rigid.report.payload import Learning, Payload
 from tests.compute.tiny import TINY, FilmedReach
@@ -71,6 +71,14 @@ def test_every_adversary_has_its_discriminator_examined_but_for_old_runs(payload
     write_report(broken_copy)
     settings = read_settings(RunDirectory(broken_copy))
     assert gather(load_frontier(broken_copy), settings)["discriminators"] is None
+
+
+def test_the_page_is_told_where_canonical_play_stands_in_the_words_of_the_terminal(small_run):
+    wild = [{**point, "naturalness": 0.1} for point in small_run.points]
+    frontier = Frontier(small_run.directory, {**small_run.data, "points": wild})
+    told = gather(frontier, read_settings(RunDirectory(small_run.directory)))["lacking"]
+    assert told == frontier.lacking_at(0.9)
+    assert told.startswith("0 of 2 seeds found a human at naturalness ≥ 0.9")
 
 
 def test_the_passive_human_is_a_reference(payload):

@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rigid.compute.subject import Subject, canonical_path, load_players
+from rigid.compute.subject import SYNTHETIC_HUMAN, Subject, canonical_path, load_players, stranger
 from rigid.data.recording import record
 from rigid.errors import UserError
+from rigid.policies.loading import policy_hash
 from rigid.policies.native import save_policy
 from tests.compute.tiny import FilmedReach
 from tests.toys import untrained
@@ -56,3 +57,41 @@ def test_no_recording_that_people_make_holds_the_episodes_of_the_referee(subject
 
     rulers = [starts(replace(subject, canonical_draw=draw).ruler_seed) for draw in (0, seed)]
     assert set(starts(seed)).isdisjoint(np.concatenate(rulers))
+
+
+@pytest.fixture
+def stored(tmp_path):
+    """Stores a robot that was trained for a human, and says what `stranger` says of it."""
+    task = FilmedReach()
+    human, other = untrained(task.human), untrained(task.human, seed=1)
+
+    def say(made_by, *, called=SYNTHETIC_HUMAN):
+        save_policy(
+            untrained(task.robot), tmp_path / "r", agent="robot", task=task.describe(),
+            provenance=made_by(policy_hash(human), policy_hash(other)),
+        )  # fmt: skip
+        return stranger(str(tmp_path / "r"), called, human, task)
+
+    return say
+
+
+def test_a_robot_that_meets_another_human_than_its_own_without_being_told_to_is_warned_of(stored):
+    said = stored(lambda _, other: {"human": other})
+    assert "was trained for another human than builtin:synthetic-human, who was taken" in said
+    assert "name its own with --human" in said
+
+
+@pytest.mark.parametrize(
+    "made_by", [lambda own, _: {"human": own}, lambda *_: {}], ids=["its own", "nobody known"]
+)
+def test_a_robot_that_may_be_meeting_its_own_human_is_not_warned_of(stored, made_by):
+    assert stored(made_by) is None
+
+
+def test_who_names_a_human_means_that_one(stored):
+    assert stored(lambda _, other: {"human": other}, called="runs/pair/human") is None
+
+
+def test_what_is_no_native_policy_tells_no_human():
+    task = FilmedReach()
+    assert stranger("exec:./play", SYNTHETIC_HUMAN, untrained(task.human), task) is None

@@ -33,7 +33,10 @@ RUNS = {
 }
 """Measurements, below `runs/`."""
 FILES = {"docs/data-format.md": {"people.npz": BUNDLED / "vanilla" / "canonical.npz"}}
-HUMANS = {"docs/comparing.md": [f"pairs/{seed}/human" for seed in range(3)]}
+HUMANS = {
+    "README.md": ["my/human"],
+    "docs/comparing.md": [f"pairs/{seed}/human" for seed in range(3)],
+}
 
 
 @pytest.fixture(scope="session")

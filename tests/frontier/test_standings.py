@@ -84,14 +84,15 @@ def test_paired_robots_of_different_humans_are_named():
     swapped = {"vanilla": VANILLA, "robust": ROBUST[::-1]}
     assert unlike_pairs(BOTH) == []
     assert unlike_pairs(swapped) == [
-        f"robot {number} of robust was made for another synthetic human than robot {number} of "
-        "vanilla: the two pair by their order alone"
+        f"robot {number} of robust was measured with another synthetic human than robot {number} "
+        "of vanilla: the two pair by their order alone"
         for number in (1, 2)
     ]
 
 
-def test_single_robots_pair_by_seed_whatever_their_humans():
-    assert unlike_pairs({"a": VANILLA[:1], "b": VANILLA[1:]}) == []
+def test_single_robots_of_different_humans_pair_by_seed_and_are_named():
+    (said,) = unlike_pairs({"a": VANILLA[:1], "b": VANILLA[1:]})
+    assert said.startswith("b was measured with another synthetic human than a: what is natural")
 
 
 def test_notes_say_over_what_intervals_are_and_what_a_repeat_would_do():

@@ -183,7 +183,9 @@ def test_a_name_too_long_for_a_file_is_no_crash(spec, message):
 
 def test_a_task_without_bundled_robots_says_so():
     with pytest.raises(
-        UserError, match="builtin robots: none; train one with rigid train, or name yours"
+        UserError,
+        match="builtin robots: none; train a pair with `rigid train co-optimize --task toy-reach "
+        "--out DIR`, or name yours",
     ):
         load_policy("builtin:vanilla", task=TASK, agent="robot")
 

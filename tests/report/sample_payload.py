@@ -104,6 +104,9 @@ def _frontier(points, seeds):
         "canonical": {"success": 0.97, "return": 12.8, "adversarialness": CANONICAL_Y,
                       "episodes": 200, "source": "synthetic"},
         "points": points, "worst_at": {t: float(np.mean(worst(float(t)))) for t in thresholds},
+        "worst_at_by_seed": {
+            t: {str(s): y for s, y in enumerate(worst(float(t)))} for t in thresholds
+        },
         "worst_at_interval": {t: _interval(worst(float(t))) for t in thresholds},
         "auc_natural": natural.mean(), "auc_natural_interval": _interval(natural),
         "auc": areas.mean(), "auc_interval": _interval(areas),
@@ -194,6 +197,7 @@ def sample_payload(seeds: int = 3, *, replays: int | None = None) -> dict:
             "task": {"name": "itch-scratching", "servo": "paper", "horizon": FRAMES - 1},
             "hashes": {"robot": "sha256:0f3a…", "canonical": "sha256:77c1…"}, "git_commit": None,
         },
+        "lacking": None,
         "stamp": "synthetic sample: not a measurement",
         "passive": {"naturalness": 0.34, "adversarialness": 0.31, "success": 0.45, "return": -17.2},
         "learning": {p["id"]: _learning(rng, p) for p in points},

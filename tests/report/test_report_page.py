@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
+from rigid.frontier.result import lacking
 from rigid.report import build_report
 
 HOSTILE = '</script><img src=x onerror="window.hacked=1">\'"\u2028{{7*7}}\ud800'
@@ -55,6 +56,30 @@ def test_headline_numbers_are_those_of_the_payload(page, payload):
         assert box.locator(".figure-value").inner_text() == f"{value:.2f}"
         low, high = interval
         assert box.locator(".interval").inner_text() == f"[{low:.2f}, {high:.2f}]"
+
+
+def test_beside_the_mean_over_seeds_stands_the_worst_of_all(page, payload):
+    worst = max(payload["frontier"]["worst_at_by_seed"]["0.9"].values())
+    said = " ".join(page.locator("#worst").inner_text().split())
+    assert f"mean over seeds of each seed's worst; the worst of all: {worst:.2f}" in said
+    assert page.locator(".lacking").count() == 0
+
+
+def test_a_headline_that_rests_on_canonical_play_says_so_beside_it(visit, payload, tmp_path):
+    words = lacking(0, 6, 0.9)
+    with visit(build_report({**payload, "lacking": words}, tmp_path / "report.html")) as page:
+        said = page.locator("#worst .lacking")
+        assert said.inner_text() == words
+        assert said.is_visible()
+        value = page.locator("#worst .figure-value").evaluate("e => getComputedStyle(e).color")
+        assert said.evaluate("e => getComputedStyle(e).borderLeftColor") == value
+        assert "canonical play where a seed found nobody" in page.locator("#success").inner_text()
+
+
+def test_the_legend_says_what_a_mark_under_the_line_is(page):
+    figure = page.locator(".frontier-figure")
+    assert "not dominated" in figure.locator(".legend").inner_text()
+    assert "no other human is both more natural" in figure.locator("figcaption").inner_text()
 
 
 def test_head_names_robot_task_and_canonical_source(page):
@@ -268,6 +293,18 @@ def test_no_viewport_scrolls_sideways(visit, report):
             page.set_viewport_size({"width": width, "height": 800})
             page.evaluate(TWO_FRAMES)
             assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+@pytest.mark.parametrize("width", [320, 390, 1000])
+def test_even_a_full_success_stays_in_its_column(visit, payload, tmp_path, width):
+    perfect = copy.deepcopy(payload["frontier"])
+    for part in (perfect["canonical"], *perfect["points"]):
+        part["success"] = 1.0
+    file = build_report({"frontier": perfect}, tmp_path / "report.html")
+    with visit(file, viewport={"width": width, "height": 800}) as page:
+        figure = page.locator("#success .figure-value")
+        assert figure.inner_text() == "1.00 → 1.00"
+        assert figure.evaluate("e => e.scrollWidth <= e.clientWidth")
 
 
 def brightness(page):

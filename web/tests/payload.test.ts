@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { COLUMNS, columnsOf, csv, sorted } from "../src/report/columns.js";
 import { panelsOf } from "../src/report/learning-panels.js";
-import { firstPoint, forcesArePhysical, headlineLevel, scalar, successUnderAttack, worstAt } from "../src/report/measures.js";
+import { firstPoint, forcesArePhysical, headlineLevel, scalar, successUnderAttack, worstAt, worstOfAll } from "../src/report/measures.js";
 import { readPayload, type Payload } from "../src/report/payload.js";
 
 type Raw = Record<string, unknown>;
@@ -20,6 +20,8 @@ test("anything at all can be read: what is missing is null", () => {
     const payload = readPayload(junk);
     assert.deepEqual(payload.points, []);
     assert.equal(payload.band, null);
+    assert.equal(payload.lacking, null);
+    assert.equal(worstOfAll(payload, "0.9"), null);
     assert.equal(payload.replays.stored, false);
     assert.equal(firstPoint(payload), null);
     assert.equal(worstAt(payload, "0.9").value, null);
@@ -39,8 +41,22 @@ test("a name from Object's prototype is no replay", () => {
 });
 
 test("the page opens on the most adversarial human at naturalness ≥ 0.8", () => {
-  const payload = payloadOf([point("wild", 0.2, 1), point("mild", 0.95, 0.2), point("worst", 0.8, 0.6), point("unknown", null, 1)]);
+  const payload = payloadOf([point("wild", 0.7, 1), point("mild", 0.95, 0.2), point("worst", 0.8, 0.6), point("unknown", null, 1)]);
   assert.equal(firstPoint(payload)?.id, "worst");
+});
+
+test("it opens on one who is helped less often than in canonical play, where one is half as natural", () => {
+  const helped = point("helped", 0.9, 0.3, { success: 0.9 });
+  const hurt = point("hurt", 0.5, 0.25);
+  assert.equal(firstPoint(payloadOf([helped, hurt, point("less", 0.6, 0.1), point("wild", 0.49, 1)]))?.id, "hurt");
+  assert.equal(firstPoint(payloadOf([helped, hurt, point("natural", 0.8, 0.1)]))?.id, "natural");
+});
+
+test("where nobody fails so, or the task tells no success, it opens on the worst natural human", () => {
+  const helped = [point("mild", 0.95, 0.2, { success: 0.9 }), point("worst", 0.9, 0.3, { success: 1 })];
+  assert.equal(firstPoint(payloadOf([...helped, point("wild", 0.1, 1)]))?.id, "worst");
+  const untold = [point("worst", 0.9, 0.3, { success: null }), point("wild", 0.6, 1, { success: null })];
+  assert.equal(firstPoint(payloadOf(untold, { canonical: { success: null } }))?.id, "worst");
 });
 
 test("where none is that natural it opens on the most natural", () => {
@@ -59,6 +75,17 @@ test("a headline without an interval has none, not one made of nulls", () => {
   const payload = payloadOf([], { auc: 0.6, auc_interval: [null, 0.7], worst_at: { "0.9": 0.4 }, worst_at_interval: { "0.9": [0.3, 0.5] } });
   assert.deepEqual(scalar(payload, "auc"), { value: 0.6, interval: null });
   assert.deepEqual(worstAt(payload, "0.9"), { value: 0.4, interval: [0.3, 0.5] });
+});
+
+test("beside the mean over seeds stands the worst of them, where there are several", () => {
+  const worst = (bySeed: Raw) => worstOfAll(payloadOf([], { worst_at_by_seed: { "0.9": bySeed } }), "0.9");
+  assert.equal(worst({ 0: 0.04, 1: 0.13, 2: null }), 0.13);
+  assert.equal(worst({ 0: 0.04 }), null);
+});
+
+test("where canonical play stands for a human, the words are those of the measurement", () => {
+  assert.equal(readPayload({ lacking: "0 of 6 seeds" }).lacking, "0 of 6 seeds");
+  assert.equal(readPayload({ lacking: ["0"] }).lacking, null);
 });
 
 test("forces count as physical only under the datasheet's servo", () => {

@@ -46,7 +46,7 @@ class BlameCommand(OpeningOptions, MeasuredTaskOptions):
         with goes_on(file, file.exists), TerminalListener("best responses") as listener:
             found = blame(
                 self.directory, task=self.named_task(), robot=self.robot, opening=self.opening(),
-                points=names, say=listener.say,
+                points=names, say=listener.say, expect=listener.expect, advance=listener.advance,
             )  # fmt: skip
         print(json.dumps(found, indent=1) if self.json else table(found))
         return 0

@@ -30,10 +30,10 @@ class FrontierCommand(RangeOptions, PairOptions):
 
     Examples:
       rigid frontier --robot builtin:vanilla --out runs/vanilla
-      rigid frontier --robot my/robot --preset paper --seeds 0..2 --out runs/mine
-      rigid frontier --robot my/robot --lambdas 0,0.01,1,inf --seeds 0 --out runs/look
-      rigid frontier --robot my/robot --executor ray:10.0.0.1:6379 --out runs/mine
-      rigid frontier --robot my/robot --return-range -100,20 --out runs/mine
+      rigid frontier --robot my/robot --human my/human --preset paper --seeds 0..2 --out runs/mine
+      rigid frontier --robot my/robot --human my/human --lambdas 0,0.1,inf --seeds 0 --out runs/x
+      rigid frontier --robot my/robot --human my/human --executor ray:10.0.0.1:6379 --out runs/mine
+      rigid frontier --robot my/robot --human my/human --return-range=-100,20 --out runs/mine
     """
 
     out: Path

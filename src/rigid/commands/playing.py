@@ -6,7 +6,7 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
@@ -15,6 +15,10 @@ from rigid.commands.parsing import at_least, parse_expected
 from rigid.commands.places import file_played_again
 from rigid.commands.ranging import RangeOptions
 from rigid.commands.wrapping import tell
+
+if TYPE_CHECKING:
+    from rigid.policies.protocol import Policy
+    from rigid.tasks.protocol import Task
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +56,7 @@ class RecordCommand(_PlayOptions):
         task, opening = self.open_task(), self.opening()
         robot = load_policy(self.robot, task=task, agent="robot", opening=opening)
         human = load_policy(self.human, task=task, agent="human", opening=opening)
+        _warn_of_a_stranger(self, human, task)
         made_by = {"robot": self.robot, "human": self.human}
         with playing(task, self.episodes, BATCH) as seen:
             found = record(
@@ -95,6 +100,7 @@ class EvaluateCommand(RangeOptions, _PlayOptions):
         ranged = task if chosen is None else with_range(task, chosen.ends)
         robot = load_policy(self.robot, task=task, agent="robot", opening=opening)
         human = load_policy(self.human, task=task, agent="human", opening=opening)
+        _warn_of_a_stranger(self, human, task)
         with playing(ranged, self.episodes, min(BLOCK, self.episodes)) as seen:
             found = evaluate(seen, robot, human, episodes=self.episodes, seed=self.seed)
         if found["adversarialness"] is not None:
@@ -114,6 +120,14 @@ class EvaluateCommand(RangeOptions, _PlayOptions):
             return 0
         tell(f"rigid: {_refusal(found)}")
         return 1
+
+
+def _warn_of_a_stranger(options: PairOptions, human: Policy, task: Task) -> None:
+    from rigid.compute.subject import stranger
+
+    warning = stranger(options.robot, options.human, human, task)
+    if warning is not None:
+        tell(warning)
 
 
 def _verdict(found: dict[str, Any], mean: float, tolerance: float) -> dict[str, Any]:

@@ -35,6 +35,9 @@ policy copes, and below which no robot could help. Ours."""
 EPISODES = 100
 """Fresh episodes on which robot and responses are scored."""
 
+VIEWS = ("same_view", "sees_everything")
+"""What responses see: what the robot does, and what the human does as well."""
+
 Say = Callable[[str], None]
 
 
@@ -47,6 +50,8 @@ def blame(
     points: Sequence[str] | None = None,
     settings: ResponseSettings | None = None,
     say: Say = lambda _: None,
+    expect: Callable[[int], None] = lambda _: None,
+    advance: Callable[[int], None] = lambda _: None,
 ) -> dict[str, dict[str, Any]]:
     """Blames the points of a finished run; what is already in its `blame.json` is kept.
 
@@ -58,6 +63,8 @@ def blame(
         points: Ids; by default every harmful point on the frontier.
         settings: Budget of a response.
         say: Told of progress.
+        expect: Told how many iterations of training there are to do.
+        advance: Told of those that are done.
 
     Returns:
         Per id: `solvable`, `verdict`, `regret`, and what robot and responses achieved.
@@ -76,15 +83,18 @@ def blame(
     task = with_range(task, stored_range(frontier.data).ends)  # The anchor's, for all that follows.
     anchor = float(frontier.data["canonical"]["adversarialness"])
     known = _stored(directory / FILE)
-    for name in points or harmful_points(frontier):
+    asked = points or harmful_points(frontier)
+    for name in asked:
         if name not in {point["id"] for point in frontier.points}:
             raise UserError(f"{directory} has no point {name!r}: frontier.json lists their ids")
+    expect(len(VIEWS) * settings.iterations * sum(name not in known for name in asked))
+    for name in asked:
         if name in known:
             say(f"{name}: {known[name]['verdict']} (known)")
             continue
         say(f"{name}: two responses of {settings.iterations} iterations")
         human = load_policy(str(directory / "adversaries" / name), task=task, agent="human")
-        known[name] = _blame_one(task, human, measured, settings, anchor)
+        known[name] = _blame_one(task, human, measured, settings, anchor, advance)
         write_atomically(directory / FILE, json_text(known, indent=1).encode())
         say(f"{name}: {known[name]['verdict']}")
     return known
@@ -102,12 +112,17 @@ def harmful_points(frontier: Frontier) -> list[str]:
 
 
 def _blame_one(
-    task: Task, human: Policy, robot: Policy, settings: ResponseSettings, anchor: float
+    task: Task,
+    human: Policy,
+    robot: Policy,
+    settings: ResponseSettings,
+    anchor: float,
+    advance: Callable[[int], None],
 ) -> dict[str, Any]:
-    views: dict[str, Task] = {"same_view": task, "sees_everything": SeeingEverything(task)}
+    views: dict[str, Task] = dict(zip(VIEWS, (task, SeeingEverything(task)), strict=True))
     found = {"robot": evaluate(task, robot, human, episodes=EPISODES, seed=1)}
     for name, view in views.items():
-        response = best_response(view, human, robot, settings, seed=0)
+        response = best_response(view, human, robot, settings, seed=0, report=lambda _: advance(1))
         found[name] = evaluate(view, response, human, episodes=EPISODES, seed=1)
     return {**verdict(found, anchor), **{name: _short(entry) for name, entry in found.items()}}
 
@@ -126,9 +141,9 @@ def verdict(found: Mapping[str, Mapping[str, Any]], anchor: float) -> dict[str, 
         'another policy copes'
     """
     mine = found["robot"]["adversarialness"]
-    best = min(found[name]["adversarialness"] for name in ("same_view", "sees_everything"))
+    best = min(found[name]["adversarialness"] for name in VIEWS)
     regret = max(mine - best, 0.0)
-    successes = [found[name]["success"] for name in ("same_view", "sees_everything")]
+    successes = [found[name]["success"] for name in VIEWS]
     undone = regret / max(mine - anchor, 1e-9)
     solvable = max(successes) if None not in successes else min(undone, 1.0)
     if solvable >= COPES:

@@ -23,7 +23,7 @@ from rigid.compute.identity import identity_of
 from rigid.compute.playing import play_in_turns, play_with
 from rigid.compute.return_range import ReturnRange, range_in_force
 from rigid.compute.scoring import Ruler, naturalness_of, seen_by_referee
-from rigid.compute.subject import Subject, canonical_path, load_players
+from rigid.compute.subject import Subject, canonical_path, load_players, stranger
 from rigid.data.episodes import CanonicalEpisodes, load_episodes
 from rigid.data.recording import record
 from rigid.errors import UserError
@@ -85,6 +85,9 @@ def prepare(
     range_ = range_in_force(subject.task, subject.return_range)
     task = with_range(subject.task, range_.ends) if range_.source != "task" else subject.task
     robot, human = load_players(subject)
+    warning = stranger(subject.robot, subject.human, human, subject.task)
+    if warning is not None:
+        say(warning)
     referee = RefereeSettings()
     canonical, played = _canonical(subject, robot, human, preset, features, referee, say)
     ruler = Ruler(canonical.folds, range_.ends, referee)

@@ -7,6 +7,7 @@ more than one process with two (docs/scaling.md), and their groups end in the sa
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Generator, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
@@ -63,6 +64,19 @@ class Processes:
                 pool.shutdown(kill_workers=True)
 
 
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Keeps Ctrl-C until the end of the block, and for good from processes that start in it.
+
+    The terminal sends it to all of them, and who still loads modules would answer with a traceback.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 class ProcessWorkers:
     """Processes that are ready for groups."""
 
@@ -83,7 +97,8 @@ class ProcessWorkers:
     def send(self, search: SeedSearch, plan: GroupPlan) -> Future[None]:
         """Hands a group to the next free process."""
         progress_file(search.inputs.directory, plan).unlink(missing_ok=True)  # Of an earlier one.
-        future: Future[None] = self._pool.submit(work, search.inputs, plan, os.getpid())
+        with _interrupts_held():
+            future: Future[None] = self._pool.submit(work, search.inputs, plan, os.getpid())
         self._heard[future] = Progress()
         return future
 

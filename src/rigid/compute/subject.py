@@ -14,12 +14,15 @@ from rigid.files import json_text
 from rigid.naturalness.features import DEFAULT
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import BUNDLED, load_policy, policy_hash
+from rigid.policies.native import CARD_FILE, load_card
 from rigid.policies.opening import NAMED_BY_FILE, SAFE, Opening
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 from rigid.tasks.registry import task_from_description
 
 CANONICAL_FILE = "canonical.npz"
+SYNTHETIC_HUMAN = "builtin:synthetic-human"
+"""Whom a robot meets where nobody is named."""
 _FIRST_RULER_SEED = 2**31
 """Beyond what people choose: a robot's own episodes, or those of `rigid record --seed 1`, must not
 be the very episodes that the referee judges by. Below 2**32, since NumPy takes [2**32, 0] for the
@@ -32,7 +35,7 @@ class Subject:
 
     task: Task
     robot: str
-    human: str = "builtin:synthetic-human"
+    human: str = SYNTHETIC_HUMAN
     canonical: str | None = None
     """A file of canonical episodes; by default the robot's own, or a fresh recording."""
     features: str = DEFAULT
@@ -87,6 +90,33 @@ def load_players(subject: Subject) -> tuple[Policy, GaussianPolicy]:
     return robot, human
 
 
+def stranger(robot: str, human: str, met: Policy, task: Task) -> str | None:
+    """Says that a robot meets the bundled human, though it was trained for another one.
+
+    Whoever names a human means that one, so that only a human who was not named is looked at.
+
+    Args:
+        robot: As the user named it; other policies than native ones tell nothing.
+        human: Likewise.
+        met: That human.
+        task: Theirs.
+
+    Returns:
+        A warning; None where there is nothing to warn of.
+    """
+    folder = _folder(robot, task)
+    there = os.path.exists(folder / CARD_FILE)  # noqa: PTH110 - Path's raises, see `canonical_path`.
+    if human != SYNTHETIC_HUMAN or not there or not isinstance(met, GaussianPolicy):
+        return None
+    known = load_card(folder).provenance.get("human")
+    if known is None or known == policy_hash(met):
+        return None
+    return (
+        f"warning: {robot} was trained for another human than {human}, who was taken since none is "
+        "named: name its own with --human, or everything tells how it copes with a stranger"
+    )
+
+
 def measured_robot(
     spec: str,
     task: Task,
@@ -119,11 +149,15 @@ def canonical_path(subject: Subject) -> Path | None:
         return Path(subject.canonical)
     if subject.canonical_draw:
         return None
-    name = subject.robot.removeprefix("builtin:")
-    folder = BUNDLED / subject.task.name / name if name != subject.robot else Path(name)
-    file = Path(str(folder)) / CANONICAL_FILE
+    file = _folder(subject.robot, subject.task) / CANONICAL_FILE
     there = os.path.exists(file)  # noqa: PTH110 - Path's raises where a command is too long.
     return file if there else None
+
+
+def _folder(robot: str, task: Task) -> Path:
+    """Where a native policy would lie that is called so."""
+    name = robot.removeprefix("builtin:")
+    return Path(str(BUNDLED / task.name / name)) if name != robot else Path(name)
 
 
 def measured_task(directory: Path, identity: Mapping[str, Any], named: Task | None = None) -> Task:

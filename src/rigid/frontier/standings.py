@@ -120,16 +120,26 @@ def _is_straight(standing: Standing) -> bool:
 
 
 def unlike_pairs(methods: Mapping[str, Sequence[Measured]]) -> list[str]:
-    """Sentences on paired robots that were made for different synthetic humans.
+    """Sentences on paired robots that were measured with different synthetic humans.
 
-    Only where a method has several robots: their order then says which of them belong together.
+    Where a method has several robots, their order says which of them belong together.
     """
-    if max(map(len, methods.values())) < 2:
-        return []
+    several = max(map(len, methods.values())) > 1
     (baseline, first), *others = methods.items()
+
+    def said(name: str, number: int) -> str:
+        if several:
+            return (
+                f"robot {number} of {name} was measured with another synthetic human than robot "
+                f"{number} of {baseline}: the two pair by their order alone"
+            )
+        return (
+            f"{name} was measured with another synthetic human than {baseline}: what is natural "
+            "is not the same for both"
+        )
+
     return [
-        f"robot {number} of {name} was made for another synthetic human than robot {number} of "
-        f"{baseline}: the two pair by their order alone"
+        said(name, number)
         for name, robots in others
         for number, ((_, mine), (_, theirs)) in enumerate(zip(robots, first, strict=False), 1)
         if mine.get("human") != theirs.get("human")

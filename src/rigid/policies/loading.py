@@ -197,7 +197,8 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
     names = builtin_names(task, agent)
     if name not in names:
         listed = ", ".join(_BUILTIN + known for known in names) or "none"
-        way = "" if names else f"; train one with rigid train, or name yours with --{agent}"
+        train = f"rigid train co-optimize --task {task.name} --out DIR"
+        way = "" if names else f"; train a pair with `{train}`, or name yours with --{agent}"
         raise UserError(
             f"{agent} '{_BUILTIN}{name}' is unknown for task {task.name!r}"
             f"{_suggestion(name, names)}; builtin {agent}s: {listed}{way}"

@@ -17,6 +17,7 @@ from rigid.compute.checkpoint import load_arrays
 from rigid.compute.run_directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.files import read_bytes
+from rigid.frontier.comparison import HEADLINE_LEVEL
 from rigid.frontier.result import Frontier, load_frontier, measured_points
 from rigid.frontier.statistics import interval_band, sound_points_by_seed
 from rigid.report.build import build_report
@@ -82,6 +83,7 @@ def gather(
         "stamp": frontier.data.get("stamp"),
         "band": band(frontier),
         "passive": frontier.data.get("passive"),
+        "lacking": frontier.lacking_at(HEADLINE_LEVEL),
         "learning": {
             point["id"]: learning_curves(_folder(frontier, point)) for point in frontier.points
         },

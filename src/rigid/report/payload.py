@@ -218,8 +218,9 @@ class Payload(TypedDict, total=False):
 
     `replays` maps a point's id to {"worst": Replay, "median": Replay}, "canonical" to
     {seed: Replay} and "passive" to a Replay; a point's motion stands beside the canonical one of
-    the same seed. `discriminators` is by search seed, without those that were never examined;
-    `failures` is null where the task tells too little of its episodes.
+    the same seed. `lacking` is `rigid.frontier.result.lacking` of the headline, null where every
+    seed found a human that natural. `discriminators` is by search seed, without those that were
+    never examined; `failures` is null where the task tells too little of its episodes.
     """
 
     frontier: Mapping[str, object]
@@ -227,6 +228,7 @@ class Payload(TypedDict, total=False):
     stamp: str | None
     band: Band | None
     passive: Passive | None
+    lacking: str | None
     learning: Mapping[str, Learning] | None
     scene: Scene | None
     replays: Mapping[str, object] | None

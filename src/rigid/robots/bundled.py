@@ -22,7 +22,7 @@ from rigid.tasks.registry import make_task
 
 SEED = 0
 """Of each bundled pair and robot."""
-TASKS = ("itch-scratching", "feeding")
+TASKS = ("itch-scratching", "feeding", "bed-bathing")
 """Whose policies ship with RIGID, by the same recipes and settings."""
 
 

@@ -45,7 +45,7 @@ def make_task(name: str, **parameters: Any) -> Task:
         >>> make_task("itch-scraching")
         Traceback (most recent call last):
         rigid.errors.UserError: unknown task 'itch-scraching', did you mean 'itch-scratching'?
-            Tasks: analytic/hand-tracking, analytic/offset-catch, feeding, itch-scratching, ...
+            Tasks: analytic/hand-tracking, analytic/offset-catch, bed-bathing, feeding, ...
     """
     recipe = _recipe(name)
     if recipe.parameters is not None:
@@ -128,6 +128,16 @@ def _feeding() -> _Recipe:
     return _assistive("feeding", FeedingParameters, RewardWeights, build)
 
 
+def _bed_bathing() -> _Recipe:
+    from rigid.tasks.bed_bathing.parameters import BedBathingParameters, RewardWeights
+    from rigid.tasks.bed_bathing.task import BedBathing
+
+    def build(**parameters: Any) -> Task:
+        return BedBathing(BedBathingParameters(**parameters))
+
+    return _assistive("bed-bathing", BedBathingParameters, RewardWeights, build)
+
+
 def _assistive(
     name: str, parameters: type[Any], weights: type[Any], build: Callable[..., Task]
 ) -> _Recipe:
@@ -160,6 +170,7 @@ def _hand_tracking() -> _Recipe:
 _BUILTIN: dict[str, Callable[[], _Recipe]] = {
     "analytic/hand-tracking": _hand_tracking,
     "analytic/offset-catch": _offset_catch,
+    "bed-bathing": _bed_bathing,
     "feeding": _feeding,
     "itch-scratching": _itch_scratching,
 }

@@ -25,7 +25,7 @@ def played(name, parameters=None, steps=STEPS, *, wild=True):
     return task, handle, np.array(states), poses
 
 
-@pytest.fixture(scope="module", params=["itch-scratching", "feeding"])
+@pytest.fixture(scope="module", params=["itch-scratching", "feeding", "bed-bathing"])
 def episode(request):
     return played(request.param)
 

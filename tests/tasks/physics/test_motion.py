@@ -9,7 +9,7 @@ from rigid.tasks.registry import make_task
 SEEDS = np.arange(3)
 
 
-@pytest.fixture(scope="module", params=["itch-scratching", "feeding"])
+@pytest.fixture(scope="module", params=["itch-scratching", "feeding", "bed-bathing"])
 def task(request):
     """Each task on MuJoCo."""
     return make_task(request.param)

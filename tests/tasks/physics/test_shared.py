@@ -24,7 +24,7 @@ def test_fine_steps_fill_a_control_step(control):
     assert step * count == pytest.approx(control)
 
 
-@pytest.mark.parametrize("name", ["itch-scratching", "feeding"])
+@pytest.mark.parametrize("name", ["itch-scratching", "feeding", "bed-bathing"])
 def test_finer_parameters_keep_everything_but_the_physics_step(name):
     given = make_task(name, percentile=60, impairment="tremor", substeps=4).parameters
     fine = finely(given)
@@ -40,16 +40,18 @@ def test_an_observed_number_has_the_bounds_of_its_kind():
     np.testing.assert_allclose(low, [-3, -3, -3, -1, -1, -1, -1, -1.2, 0])
 
 
-def test_the_robot_sees_from_its_base():
-    base = np.array(wheelchair.JACO_MOUNT)
-    turned = Rotation.from_euler("z", wheelchair.JACO_YAW)
-    seen = seen_by_robot(np.array([[base, base + turned.apply([0.1, 0.0, 0.2])]]))
+@pytest.mark.parametrize("stand", [(), ((1.0, -2.0, 0.5), 0.7)], ids=["wheelchair", "elsewhere"])
+def test_the_robot_sees_from_its_base(stand):
+    base, yaw = stand or (wheelchair.JACO_MOUNT, wheelchair.JACO_YAW)
+    turned = Rotation.from_euler("z", yaw)
+    places = np.array([[base, base + turned.apply([0.1, 0.0, 0.2])]])
+    seen = seen_by_robot(places, *stand)
     np.testing.assert_allclose(seen, [[[0, 0, 0], [0.1, 0, 0.2]]], atol=1e-12)
-    straight = turned_for_robot(turned.as_quat(scalar_first=True)[None])
+    straight = turned_for_robot(turned.as_quat(scalar_first=True)[None], *stand[1:])
     np.testing.assert_allclose(np.abs(straight), [[1, 0, 0, 0]], atol=1e-12)
 
 
-@pytest.mark.parametrize("name", ["itch-scratching", "feeding"])
+@pytest.mark.parametrize("name", ["itch-scratching", "feeding", "bed-bathing"])
 def test_the_deepest_overlap_of_a_control_step_counts(name):
     model = make_task(name).model
     data = np.zeros((2, 3, model.nsensordata))

@@ -51,7 +51,7 @@ function key(payload: Payload, range: readonly [number, number]): HTMLElement {
     h("span", { class: "what" }, "weight on staying natural"));
   return h("div", { class: "chart-key" }, scale,
     h("ul", { class: "legend" },
-      h("li", {}, sample("frontier", "M5.5 0A5.5 5.5 0 1 1 -5.5 0A5.5 5.5 0 1 1 5.5 0Z"), "on the frontier"),
+      h("li", {}, sample("frontier", "M5.5 0A5.5 5.5 0 1 1 -5.5 0A5.5 5.5 0 1 1 5.5 0Z"), "not dominated"),
       h("li", {}, sample("dominated", "M-4 -4L4 4M-4 4L4 -4"), "dominated"),
       h("li", {}, sample("canonical", "M0 -6L6 5H-6Z"), "canonical play"),
       payload.passive && h("li", {}, sample("passive", "M0 -6L6 0L0 6L-6 0Z"), "passive human: a reference, not an attack"),
@@ -66,8 +66,10 @@ function frontierCaption(payload: Payload): HTMLElement {
   const scale = range
     ? ` Adversarialness 0 and 1 stand for returns of ${general(range[1])} and ${general(range[0])} (${rangeSource(payload.frontier)}).`
     : "";
+  const line = seedsOf(payload).length > 1 ? "the mean of the hulls of all seeds" : "the hull";
+  const frontier = `A mark that is not dominated is on the frontier: no other human is both more natural and more adversarial. It need not touch the line, ${line}.`;
   return caption(
-    `Each mark is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale}`,
+    `Each mark is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale} ${frontier}`,
     `${axisSentence(payload)} The boundary is what this search found, not the worst there is.`.trim(),
     `Choose a mark to ${watchable(payload) ? "watch it" : "read its numbers"}; arrow keys walk from mark to mark.`,
   );

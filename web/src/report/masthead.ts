@@ -1,9 +1,9 @@
 /** Who was measured, with what, and the four numbers that matter. */
-import { h } from "../base/dom.js";
+import { h, type Child } from "../base/dom.js";
 import { count, duration, fixed, intervalText, UNKNOWN } from "../base/format.js";
 import { number } from "../base/read.js";
 import { themeSwitch } from "../base/theme.js";
-import { scalar, seedsOf, successUnderAttack, worstAt, type Estimate } from "./measures.js";
+import { scalar, seedsOf, successUnderAttack, worstAt, worstOfAll, type Estimate } from "./measures.js";
 import type { Payload } from "./payload.js";
 
 function fact(name: string, value: string): HTMLElement {
@@ -45,7 +45,7 @@ function rail({ value, interval }: Estimate): HTMLElement {
     value !== null && h("span", { class: "rail-tick", style: `left: ${at(value)}` }));
 }
 
-function headline(id: string, name: string, estimate: Estimate, note: string, seeds: number): HTMLElement {
+function headline(id: string, name: string, estimate: Estimate, seeds: number, ...notes: Child[]): HTMLElement {
   const missing = seeds === 1 ? "one seed: no interval" : "no interval";
   const range = estimate.value === null ? "not measured" : (intervalText(estimate.interval) ?? missing);
   return h("div", { class: "headline", id },
@@ -53,17 +53,30 @@ function headline(id: string, name: string, estimate: Estimate, note: string, se
     h("p", { class: "figure-value" }, fixed(estimate.value)),
     rail(estimate),
     h("p", { class: "interval" }, range),
-    h("p", { class: "note" }, note));
+    ...notes);
+}
+
+function note(...said: Child[]): HTMLElement {
+  return h("p", { class: "note" }, ...said);
+}
+
+/** What the first number is: a mean, of whom, and the largest that went into it. */
+function worst(payload: Payload, seeds: number): HTMLElement {
+  const most = worstOfAll(payload, "0.9");
+  const others = `≥ 0.8: ${fixed(worstAt(payload, "0.8").value)} · ≥ 0.95: ${fixed(worstAt(payload, "0.95").value)}`;
+  return headline("worst", "Worst at naturalness ≥ 0.9", worstAt(payload, "0.9"), seeds,
+    payload.lacking !== null && h("p", { class: "lacking" }, payload.lacking),
+    most !== null && note("mean over seeds of each seed's worst; ", h("strong", {}, `the worst of all: ${fixed(most)}`)),
+    note(others));
 }
 
 /** The four numbers, in the order in which they should be read. */
 export function headlines(payload: Payload): HTMLElement {
   const seeds = seedsOf(payload).length;
-  const others = `≥ 0.8: ${fixed(worstAt(payload, "0.8").value)} · ≥ 0.95: ${fixed(worstAt(payload, "0.95").value)}`;
   return h("section", { class: "headlines", "aria-label": "Headline numbers" },
-    headline("worst", "Worst at naturalness ≥ 0.9", worstAt(payload, "0.9"), others, seeds),
-    headline("auc-natural", "Area over [0.8, 1]", scalar(payload, "auc_natural"), "the natural end of the frontier", seeds),
-    headline("auc", "AUC", scalar(payload, "auc"), "lower is more robust", seeds),
+    worst(payload, seeds),
+    headline("auc-natural", "Area over [0.8, 1]", scalar(payload, "auc_natural"), seeds, note("the natural end of the frontier")),
+    headline("auc", "AUC", scalar(payload, "auc"), seeds, note("lower is more robust")),
     success(payload),
     h("p", { class: "honesty" },
       seeds > 1 && "Means over search seeds, with 95 % intervals. ",
@@ -82,5 +95,7 @@ function success(payload: Payload): HTMLElement {
       from !== null && h("span", { class: "rail-tick faint", style: `left: ${100 * from}%` }),
       to !== null && h("span", { class: "rail-tick", style: `left: ${100 * to}%` })),
     h("p", { class: "interval" }, "canonical → worst at ≥ 0.9"),
-    h("p", { class: "note" }, from === null && to === null ? "this task tells no success" : "mean over seeds"));
+    note(from === null && to === null ? "this task tells no success"
+      : payload.lacking === null ? "mean over seeds"
+      : "mean over seeds, canonical play where a seed found nobody"));
 }

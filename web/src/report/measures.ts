@@ -1,5 +1,5 @@
 /** What the headline and the first selection say, from the payload alone. */
-import { dict, interval, number, text } from "../base/read.js";
+import { dict, interval, number, numbers, text } from "../base/read.js";
 import type { Payload, Point } from "./payload.js";
 
 export interface Estimate {
@@ -13,6 +13,13 @@ export function worstAt(payload: Payload, threshold: "0.8" | "0.9" | "0.95"): Es
     value: number(dict(payload.frontier["worst_at"])[threshold]),
     interval: interval(dict(payload.frontier["worst_at_interval"])[threshold]),
   };
+}
+
+/** The largest of the seeds' `worst_at`, whose mean the headline is; null for one seed. */
+export function worstOfAll(payload: Payload, threshold: "0.9"): number | null {
+  const bySeed = dict(dict(payload.frontier["worst_at_by_seed"])[threshold]);
+  const values = numbers(Object.values(bySeed)).filter(Number.isFinite);
+  return values.length > 1 ? Math.max(...values) : null;
 }
 
 /** A scalar of frontier.json and its interval. */
@@ -52,9 +59,15 @@ export function successUnderAttack(payload: Payload, threshold: number): number 
   return perSeed.reduce<number>((sum, value) => sum + (value ?? 0), 0) / perSeed.length;
 }
 
-/** The point on which the page opens: the worst natural one, else the most natural one. */
+/**
+ * The point on which the page opens: the worst natural one who is helped less often than in
+ * canonical play, else one at least half as natural; where none is, the worst natural one, else the
+ * most natural one.
+ */
 export function firstPoint(payload: Payload): Point | null {
-  const worst = mostAdversarial(payload.points, 0.8);
+  const usual = payload.canonical.success;
+  const failed = payload.points.filter(({ success }) => success !== null && usual !== null && success < usual);
+  const worst = mostAdversarial(failed, 0.8) ?? mostAdversarial(failed, 0.5) ?? mostAdversarial(payload.points, 0.8);
   if (worst) return worst;
   const natural = payload.points.filter((p) => p.naturalness !== null && p.adversarialness !== null);
   return natural.reduce<Point | null>(

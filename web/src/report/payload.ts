@@ -64,6 +64,8 @@ export interface Payload {
   readonly points: readonly Point[];
   readonly passive: Point | null;
   readonly band: Band | null;
+  /** Says in which seeds canonical play stands for the headline's human; null where in none. */
+  readonly lacking: string | null;
   readonly settings: Dict;
   readonly stamp: string | null;
   readonly learning: Dict;
@@ -169,6 +171,7 @@ export function readPayload(value: unknown): Payload {
     points: list(frontier["points"]).map(readPoint),
     passive: passive && readPoint({ ...passive, id: "passive", lambda: null, on_frontier: false }, 0),
     band: readBand(raw["band"]),
+    lacking: text(raw["lacking"]) || null,
     settings: dict(raw["settings"]),
     stamp: typeof raw["stamp"] === "string" ? raw["stamp"] : null,
     learning: dict(raw["learning"]),

@@ -33,7 +33,7 @@ export function lines(point: Point): string[] {
 
 /** What a screen reader says of a point. */
 export function label(point: Point): string {
-  const place = isPassive(point) ? "reference" : point.onFrontier ? "on the frontier" : "dominated";
+  const place = isPassive(point) ? "reference" : point.onFrontier ? "not dominated" : "dominated";
   return `${lines(point).slice(0, 4).join(", ")}, ${place}`;
 }
 

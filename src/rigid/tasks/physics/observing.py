@@ -14,7 +14,6 @@ _AXES = ("x", "y", "z")
 _REACH = 3.0  # [m], ours: no point of the scenes is further from either frame.
 _FORCE = 1000.0  # [N], ours: bound of the observed forces.
 _SLACK = 0.2  # [rad], ours: limits are soft in MuJoCo.
-_ROBOT_FROM_WORLD = Rotation.from_euler("z", wheelchair.JACO_YAW).inv()
 
 
 def points(*names: str) -> tuple[str, ...]:
@@ -49,18 +48,32 @@ def bounds(
     return np.array(rows)
 
 
-def seen_by_robot(places: Float[np.ndarray, "B n 3"]) -> Float[np.ndarray, "B n 3"]:
-    """Places in the world [m] as the robot sees them: in its base frame."""
-    seen: np.ndarray = np.matmul(
-        places - np.array(wheelchair.JACO_MOUNT), _ROBOT_FROM_WORLD.as_matrix().T
-    )
+def seen_by_robot(
+    places: Float[np.ndarray, "B n 3"],
+    base: tuple[float, float, float] = wheelchair.JACO_MOUNT,
+    yaw: float = wheelchair.JACO_YAW,
+) -> Float[np.ndarray, "B n 3"]:
+    """Places in the world [m] as the robot sees them: in its base frame.
+
+    Args:
+        places: World frame [m].
+        base: Where the robot's base stands [m].
+        yaw: How far it is turned [rad].
+    """
+    seen: np.ndarray = np.matmul(places - np.array(base), _from_world(yaw).as_matrix().T)
     return seen
 
 
-def turned_for_robot(quaternion: Float[np.ndarray, "B 4"]) -> Float[np.ndarray, "B 4"]:
-    """Turns in the world, w, x, y, z, as the robot sees them: in its base frame."""
-    turned = _ROBOT_FROM_WORLD * Rotation.from_quat(quaternion, scalar_first=True)
+def turned_for_robot(
+    quaternion: Float[np.ndarray, "B 4"], yaw: float = wheelchair.JACO_YAW
+) -> Float[np.ndarray, "B 4"]:
+    """Turns in the world, w, x, y, z, as a robot sees them whose base is turned by `yaw` [rad]."""
+    turned = _from_world(yaw) * Rotation.from_quat(quaternion, scalar_first=True)
     return turned.as_quat(scalar_first=True)
+
+
+def _from_world(yaw: float) -> Rotation:
+    return Rotation.from_euler("z", yaw).inv()
 
 
 def joined(parts: Sequence[np.ndarray]) -> Float[np.ndarray, "B n"]:

@@ -18,7 +18,8 @@ from rigid.tasks.views.single import AGENTS, SingleWorld
 Agent = Literal["robot", "human"]
 ITCH_SCRATCHING = "rigid/ItchScratching-v0"
 FEEDING = "rigid/Feeding-v0"
-_TASKS = {ITCH_SCRATCHING: "itch-scratching", FEEDING: "feeding"}
+BED_BATHING = "rigid/BedBathing-v0"
+_TASKS = {ITCH_SCRATCHING: "itch-scratching", FEEDING: "feeding", BED_BATHING: "bed-bathing"}
 
 
 def register() -> None:

@@ -1,0 +1,1 @@
+"""Bed bathing: a robot arm wipes the arm of a person who lies on a bed."""
