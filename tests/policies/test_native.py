@@ -14,6 +14,7 @@ from rigid.policies.native import (
     CARD_FILE,
     WEIGHTS_FILE,
     hash_weights,
+    load_card,
     load_native,
     save_policy,
 )
@@ -255,3 +256,9 @@ def test_weights_of_another_save_are_refused(tmp_path):
     (tmp_path / "a" / WEIGHTS_FILE).replace(tmp_path / "b" / WEIGHTS_FILE)
     with pytest.raises(UserError, match=r"other weights than policy\.json describes"):
         load_native(tmp_path / "b")
+
+
+def test_a_measurement_in_place_of_a_policy_is_called_what_it_is(tmp_path):
+    (tmp_path / "frontier.json").touch()
+    with pytest.raises(UserError, match=r"is a measurement \(frontier\.json\), not a policy: name"):
+        load_card(tmp_path)

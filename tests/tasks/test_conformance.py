@@ -30,10 +30,15 @@ class Broken(ToyReach):
 
 
 class Forgetful(ToyWorld):
-    """Draws its own start, whatever the seed."""
+    """Starts elsewhere each time, whatever the seed."""
+
+    _side = 1.0
 
     def reset(self, seeds):
-        return super().reset(np.random.default_rng().integers(1000, size=len(seeds)))
+        super().reset(seeds)
+        self._side = -self._side
+        self._goal *= self._side
+        return self._look(np.zeros(self.batch))
 
 
 class Unclipped(ToyWorld):

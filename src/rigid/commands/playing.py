@@ -113,13 +113,17 @@ class EvaluateCommand(RangeOptions, _PlayOptions):
             spoken = spoken_range(found) if "return_range" in found else None
             for name, value in found.items():
                 if not name.startswith(("return_range", "range_")):
-                    print(f"{name:22} {_text(value)}")
+                    unit = _UNITS.get(name, "") if value is not None else ""
+                    print(f"{name:22} {_text(value)}{unit}")
             if spoken is not None:
                 print(f"adversarialness is {spoken}")
         if expected is None or found["expected_return"]["ok"]:
             return 0
         tell(f"rigid: {_refusal(found)}")
         return 1
+
+
+_UNITS = {"peak_force": " N", "impulse": " N s"}
 
 
 def _warn_of_a_stranger(options: PairOptions, human: Policy, task: Task) -> None:

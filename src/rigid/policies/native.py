@@ -34,6 +34,8 @@ FORMAT_VERSION = 1
 WEIGHTS_FILE = "policy.safetensors"
 CARD_FILE = "policy.json"
 
+_OF_A_RUN = "frontier.json"
+"""What marks a finished run directory: `rigid.compute.run_directory`, above this module."""
 _CURE = "copy the policy or train it again"
 
 
@@ -126,6 +128,11 @@ def load_card(directory: Path | str) -> PolicyCard:
         UserError: It is missing, damaged or of an unknown format version.
     """
     path = Path(directory) / CARD_FILE
+    if not path.exists() and (path.parent / _OF_A_RUN).exists():
+        raise UserError(
+            f"{directory} is a measurement ({_OF_A_RUN}), not a policy: name the robot or human "
+            "itself; the humans that were found lie in its adversaries/"
+        )
     cure = f"a native policy is a directory with {CARD_FILE} and {WEIGHTS_FILE}; {_CURE}"
     text = read_bytes(path, cure=cure)
     return parse_header(PolicyCard, text, version=FORMAT_VERSION, where=path, cure=_CURE)
