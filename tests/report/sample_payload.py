@@ -207,3 +207,9 @@ def sample_payload(seeds: int = 3, *, replays: int | None = None) -> dict:
 
 if __name__ == "__main__":
     build_report(sample_payload(), Path(sys.argv[1]))
+
+
+def worst_natural(payload):
+    """Id of the human that does most harm at naturalness 0.8 and more."""
+    natural = [p for p in payload["frontier"]["points"] if p["naturalness"] >= 0.8]
+    return max(natural, key=lambda p: p["adversarialness"])["id"]

@@ -105,7 +105,7 @@ class _Page(io.StringIO):
         self._screen = sys.stdout
 
     @property
-    def encoding(self) -> str:  # type: ignore[override]  # typeshed has it as a variable.
+    def encoding(self) -> str:  # type: ignore[override]  # A variable in typeshed; here it follows the screen.
         """The screen's."""
         return self._screen.encoding
 

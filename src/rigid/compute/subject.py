@@ -105,7 +105,7 @@ def stranger(robot: str, human: str, met: Policy, task: Task) -> str | None:
         A warning; None where there is nothing to warn of.
     """
     folder = _folder(robot, task)
-    there = os.path.exists(folder / CARD_FILE)  # noqa: PTH110 - Path's raises, see `canonical_path`.
+    there = os.path.exists(folder / CARD_FILE)  # noqa: PTH110 - Path's raises on a long name.
     if human != SYNTHETIC_HUMAN or not there or not isinstance(met, GaussianPolicy):
         return None
     known = load_card(folder).provenance.get("human")
