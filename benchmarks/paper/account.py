@@ -85,7 +85,7 @@ def _complete(plan: Plan, rows: Sequence[Row]) -> str:
 def _comparison(rows: Sequence[Row]) -> str:
     if not rows:
         return _NOTHING
-    heads = ("method", "worst at ≥ .9 ↓", "area over [.8, 1] ↓", "AUC ↓", "success ↑", "robots",
+    heads = ("method", "worst at ≥ .9 ↓", "mean over [.8, 1] ↓", "AUC ↓", "success ↑", "robots",
              "the paper: AUC, success")  # fmt: skip
     return markdown(heads, [
         [
@@ -149,7 +149,7 @@ def _player(name: str, seed: int) -> str:
 def _bodies(rows: Sequence[Row]) -> str:
     if len(rows) < 2:  # The reference person alone compares nothing.
         return _NOTHING
-    heads = ("person", "success, canonical", "worst at ≥ .9 ↓", "area over [.8, 1] ↓", "AUC ↓")
+    heads = ("person", "success, canonical", "worst at ≥ .9 ↓", "mean over [.8, 1] ↓", "AUC ↓")
     return markdown(heads, [
         [row["person"], f"{row['success']:.2f}",
          *(_interval(row, column) for column in ("worst_at_0.9", "auc_natural", "auc"))]

@@ -13,7 +13,7 @@ from rigid.frontier.comparison import HEADLINE_LEVEL, Number
 
 _TITLES = {
     "worst_at": f"worst at naturalness ≥ {HEADLINE_LEVEL}",
-    "auc_natural": "area over [0.8, 1]",
+    "auc_natural": "mean over [0.8, 1]",
     "auc": "AUC",
 }
 _GREY = COLOURS[-1]

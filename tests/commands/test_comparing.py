@@ -14,7 +14,7 @@ def test_compare_shows_every_robot_and_its_difference_to_the_first(rigid, two_ru
     code, out, err = rigid("compare", *two_runs)
     assert (code, err) == (0, "")
     titles = [
-        out.index(title) for title in ("worst at ≥ 0.9", "hull at 0.9", "area over [0.8, 1]", "AUC")
+        out.index(title) for title in ("worst at ≥ 0.9", "hull at 0.9", "mean over [0.8, 1]", "AUC")
     ]
     assert titles == sorted(titles)
     assert f"minus {two_runs[0].name}, on the search seeds that both have" in out

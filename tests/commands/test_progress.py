@@ -33,8 +33,8 @@ def test_the_clock_of_a_full_bar_goes_on_and_says_what_is_done_then():
 
 
 def test_a_bar_without_an_end_tells_no_share_and_no_time_left():
-    bar = Bar(times := TimeColumn("", Pace()), share := ShareColumn(), get_time=lambda: 0.0)
-    bar.add_task("toy", total=None)
+    bar = Bar(times := TimeColumn(""), share := ShareColumn(), get_time=lambda: 0.0)
+    bar.add_task("toy", total=None, pace=Pace())
     assert times.render(bar.tasks[0]).plain == "0:00 so far"
     assert share.render(bar.tasks[0]).plain == ""
 
@@ -51,8 +51,8 @@ def test_the_listener_tells_an_estimate_first_and_prints_nothing_on_standard_out
 
 
 def test_a_bar_that_stands_still_says_that_the_steps_are_compiled():
-    times, bar = TimeColumn("", pace := Pace()), Bar(get_time=lambda: 0.0)
-    bar.add_task("toy", total=100)
+    times, bar, pace = TimeColumn(""), Bar(get_time=lambda: 0.0), Pace()
+    bar.add_task("toy", total=100, pace=pace)
     pace.expect(1.0, starting=30.0)
     assert times.render(bar.tasks[0]).plain == "0:00 so far · compiling · 2 min left"
     pace.advance(1)

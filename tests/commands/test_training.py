@@ -137,3 +137,36 @@ def test_a_bar_moves_within_a_slow_iteration_and_never_beyond_it(monkeypatch):
             world.step(still, still)  # As canonical episodes afterwards.
             assert bar.completed == 3
             report(Progress(-1, 0.0, 0.5, 0.1))
+
+
+def test_a_training_says_how_long_it_will_take_before_its_first_iteration_is_done():
+    from tests.toys import ToyReach
+
+    with show_progress("co-optimising", 3) as report:
+        report.within(ToyReach(), 4)
+        assert "compiling" in report._times.rest(report._bar.tasks[0])
+        report(Progress(0, 0.0, 0.5, 0.1))
+        assert "compiling" not in report._times.rest(report._bar.tasks[0])
+
+
+def test_a_log_of_a_training_tells_the_time_left(capsys):
+    with show_progress("co-optimising", 20) as report:
+        for iteration in range(10):
+            report(Progress(iteration, 1.0, 0.5, 0.1))
+    assert "co-optimising 10/20 · return 1.0 · success 0.50 · 0 s left\n" in capsys.readouterr().err
+
+
+def test_what_an_earlier_call_trained_says_nothing_of_the_speed():
+    with show_progress("co-optimising", 100) as report:
+        report(Progress(90, 1.0, 0.5, 0.1))
+        assert report._pace.left(9) is None
+
+
+def test_a_refused_training_draws_no_bar(rigid, toys, monkeypatch):
+    for name in ("FORCE_COLOR", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
+        monkeypatch.setenv(name, "1")
+    options = ("--task", "toy-reach", "--pair", toys, "--out", toys / "robot")
+    code, _, err = rigid("train", "vanilla", *options)
+    assert code == 2
+    assert "already holds a robot" in err
+    assert "━" not in err

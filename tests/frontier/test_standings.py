@@ -126,5 +126,5 @@ def test_a_note_says_why_the_hull_equals_the_area(naturalness, equal):
     hull, area = (standings[0].method.numbers[key].mean for key in ("hull_at", "auc_natural"))
     assert hull >= area
     assert (hull == pytest.approx(area)) is equal
-    said = [note for note in notes_of(standings) if "hull at 0.9 equals area over [0.8, 1]" in note]
+    said = [note for note in notes_of(standings) if "hull at 0.9 equals mean over [0.8, 1]" in note]
     assert bool(said) is equal

@@ -58,7 +58,7 @@ class ExportCommand(OpeningOptions):
     directory: Annotated[Path | None, tyro.conf.Positional, _shown_as(metavar="PATH")] = None
     """A finished run directory; leave it out to film any pair."""
     video: Annotated[Path | None, _shown_as(metavar="FILE")] = None
-    """Film to write: .mp4, which needs the extra `video`, or .webp."""
+    """Film to write, over any that is there: .mp4, which needs the extra `video`, or .webp."""
     keypoints: Annotated[Path | None, _shown_as(metavar="FILE")] = None
     """Figure to write, .pdf, .svg or .png: how keypoints moved in failures of the run."""
     onnx: Annotated[Path | None, _shown_as(metavar="FILE")] = None

@@ -104,7 +104,7 @@ def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
     against = compare(frontiers, identities, level=options.at_naturalness)[1].against
     assert against is not None
     level = f"worst at ≥ {options.at_naturalness:g}"
-    for key, label in (("worst_at", level), ("auc_natural", "area over [0.8, 1]")):
+    for key, label in (("worst_at", level), ("auc_natural", "mean over [0.8, 1]")):
         found = against[key]
         high = None if found.interval is None else found.interval.high
         yield _within(f"{label} minus baseline", found.mean, high, "paired t", options.margin)

@@ -178,7 +178,7 @@ def headline(frontier: Frontier, report: Path) -> str:
     lines = [
         "",
         f"  worst at naturalness ≥ 0.9   {data['worst_at']['0.9']:.2f}  {_interval(worst)}",
-        f"  area over [0.8, 1]           {data['auc_natural']:.2f}  {_interval(natural)}",
+        f"  mean over [0.8, 1]           {data['auc_natural']:.2f}  {_interval(natural)}",
         f"  AUC                          {data['auc']:.2f}  {_interval(data['auc_interval'])}",
         f"  {len(frontier.points)} adversaries, {_seeds(data)}; lower is better",
         f"  adversarialness is {spoken_range(data)}",

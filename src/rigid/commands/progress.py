@@ -36,16 +36,14 @@ class TimeColumn(ProgressColumn):
 
     max_refresh = 0.5
 
-    def __init__(self, after: str, pace: Pace | None = None) -> None:
-        """A column of one bar.
+    def __init__(self, after: str) -> None:
+        """A column of bars; of each that has a field `pace`, that one knows the time left.
 
         Args:
-            after: What is done once the bar is full, and goes on while its clock does.
-            pace: Knows how long it will take; by default the bar does.
+            after: What is done once a bar is full, and goes on while its clock does.
         """
         super().__init__(Column(no_wrap=True))  # The bar gives way on a narrow terminal.
         self.after = after
-        self._pace = pace
 
     def render(self, task: Bar) -> Text:
         """The times of one bar."""
@@ -57,13 +55,14 @@ class TimeColumn(ProgressColumn):
         """What is still to come."""
         if task.finished:
             return f" · {self.after}"
-        if self._pace is None:
+        pace: Pace | None = task.fields.get("pace")
+        if pace is None:
             left = task.time_remaining
         else:
-            left = None if task.remaining is None else self._pace.left(task.remaining)
+            left = None if task.remaining is None else pace.left(task.remaining)
         if left is None:
             return ""
-        compiling = " · compiling" if self._pace is not None and self._pace.compiling else ""
+        compiling = " · compiling" if pace is not None and pace.compiling else ""
         return f"{compiling} · {spoken(left)} left"
 
 
@@ -97,6 +96,26 @@ def bar_of(console: Console, *columns: ProgressColumn) -> Progress:
     return Progress(*shown, console=console, speed_estimate_period=_MEMORY)
 
 
+@contextmanager
+def drawn_late(bar: Progress) -> Iterator[None]:
+    """Draws a bar once people would wonder, so that one of a command that is refused never shows.
+
+    Whoever knows sooner that there is something to see starts it.
+    """
+    timer = Timer(PATIENCE, bar.start)
+    timer.daemon = True
+    if bar.console.is_terminal:
+        timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+        if timer.is_alive():
+            timer.join()
+        if bar.live.is_started:
+            bar.stop()
+
+
 @final
 class TerminalListener:
     """Tells the terminal how a measurement goes on; use as a context manager.
@@ -109,15 +128,13 @@ class TerminalListener:
         self._what = what
         self._console = Console(stderr=True)
         self._pace = Pace()
-        self._times = TimeColumn("summing up", self._pace)
+        self._times = TimeColumn("summing up")
         self._bar = bar_of(self._console, ShareColumn(), self._times)
-        self._task = self._bar.add_task(what, total=None)
-        self._pulse = Timer(PATIENCE, self._bar.start)
-        self._pulse.daemon = True
+        self._task = self._bar.add_task(what, total=None, pace=self._pace)
+        self._late = drawn_late(self._bar)
 
     def __enter__(self) -> TerminalListener:
-        if self._console.is_terminal:
-            self._pulse.start()
+        self._late.__enter__()
         return self
 
     def __exit__(
@@ -126,16 +143,12 @@ class TerminalListener:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._pulse.cancel()
-        if self._pulse.is_alive():
-            self._pulse.join()
         bar = self._bar.tasks[0]
         if kind is None:
             self._times.after = "done"
             self._bar.update(self._task, completed=bar.total)
         self._bar.live.transient = bar.total is None  # One that never began leaves nothing.
-        if self._bar.live.is_started:
-            self._bar.stop()
+        self._late.__exit__(kind, error, trace)
 
     def begin(self, work: Workload) -> None:
         """Work starts, or goes on."""

@@ -20,12 +20,14 @@ time only (measured .9e-4 to 2.3e-4)."""
 _ON_ONE_CORE = 1.4
 """Time that stepping takes on one core, over that on all; for estimates of time only (measured 1.4
 to 1.7 on two: policies and what Python does are not divided among threads)."""
+STARTING_SECONDS = 15.0
+"""Compilation of a robot's training (measured 10-20 s)."""
 COMPILING_SECONDS = 35.0
 """Compilation of training and referees (measured 20-40 s), in resumed measurements too."""
 FIXED_SECONDS = 40.0
 """Compilation, canonical episodes, the report (measured 30-50 s on two cores)."""
 _LEAST_ITERATIONS = 20
-_PROBE_WORLDS, _PROBE_STEPS = 192, 20
+_PROBE_WORLDS, _PROBE_STEPS, _PROBE_SECONDS = 192, 20, 0.5
 
 
 def training_speed(task: Task) -> float:
@@ -34,10 +36,11 @@ def training_speed(task: Task) -> float:
     world.reset(np.arange(_PROBE_WORLDS))
     robot = np.zeros((_PROBE_WORLDS, task.robot.action_size))
     human = np.zeros((_PROBE_WORLDS, task.human.action_size))
-    begun = time.perf_counter()
-    for _ in range(_PROBE_STEPS):
+    begun, steps, seconds = time.perf_counter(), 0, 0.0
+    while steps < _PROBE_STEPS and seconds < _PROBE_SECONDS:
         world.step(robot, human)
-    return working_speed(_PROBE_WORLDS * _PROBE_STEPS / (time.perf_counter() - begun))
+        steps, seconds = steps + 1, time.perf_counter() - begun
+    return working_speed(_PROBE_WORLDS * steps / seconds)
 
 
 def working_speed(stepping: float, workers: int = 1) -> float:

@@ -23,7 +23,7 @@ from rigid.frontier.successes import Played, Success, success_of
 TITLES: Final[Mapping[str, str]] = {
     "worst_at": f"worst at ≥ {HEADLINE_LEVEL}",
     "hull_at": f"hull at {HEADLINE_LEVEL}",
-    "auc_natural": "area over [0.8, 1]",
+    "auc_natural": "mean over [0.8, 1]",
     "auc": "AUC",
 }
 """The numbers of a comparison, as people read them; in the order of `NUMBERS`."""
