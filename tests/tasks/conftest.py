@@ -2,10 +2,30 @@
 
 import pytest
 
+from rigid.tasks.bed_bathing.task import BedBathing
+from rigid.tasks.feeding.task import Feeding
 from rigid.tasks.itch_scratching.task import ItchScratching
 
 
 @pytest.fixture(scope="session")
-def task():
+def itch_scratching():
     """The reference person, itch hidden from the robot."""
     return ItchScratching()
+
+
+@pytest.fixture(scope="session")
+def feeding():
+    """The reference person."""
+    return Feeding()
+
+
+@pytest.fixture(scope="session")
+def bed_bathing():
+    """The reference person."""
+    return BedBathing()
+
+
+@pytest.fixture(scope="session")
+def task(itch_scratching):
+    """The task of tests that need one of RIGID's; folders of other tasks have their own."""
+    return itch_scratching

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from tests.tasks.bed_bathing.conftest import SEEDS, play, still
+from tests.tasks.bed_bathing.bather import Bather
+from tests.tasks.bed_bathing.conftest import SEEDS, still
+from tests.tasks.playing import played
 
 
 def total(rows, name):
@@ -21,14 +23,15 @@ def test_a_scripted_robot_bathes_whoever_keeps_still(bathed):
 
 
 def test_the_smaller_body_is_bathed_as_well(task):
-    world, *_ = play(task.with_parameters(body="female"), still)
+    smaller = task.with_parameters(body="female")
+    world, *_ = played(smaller, Bather(smaller), still, SEEDS)
     assert world.summary().success.mean() > 0.6
 
 
 def test_a_person_who_lifts_the_arm_away_is_not_bathed(task):
     away = np.zeros((len(SEEDS), 10))
     away[:, 4] = -1.0  # The shoulder flexes: the arm goes up, and over the head.
-    world, *_ = play(task, lambda _: away)
+    world, *_ = played(task, Bather(task), lambda _: away, SEEDS)
     assert world.summary().success.mean() < 0.4
 
 

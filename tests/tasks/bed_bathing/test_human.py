@@ -7,7 +7,6 @@ import pytest
 from rigid.tasks.bed_bathing.task import BedBathing
 from rigid.tasks.bodies import bed, human, jaco, lying
 from rigid.tasks.bodies.sizes import BODIES
-from rigid.tasks.protocol import DrawsFeatures
 
 
 @pytest.fixture(scope="module", params=[{}, {"body": "female"}, {"percentile": 95.0}])
@@ -116,28 +115,3 @@ def test_features_are_the_arm_alone_with_units(task, bathed):
     assert task.feature_names[:10] == human.ARM_JOINTS
     assert rows[-1].features.shape[1] == len(task.feature_names) == 20
     assert set(task.feature_units) == set(task.feature_names)
-
-
-def test_features_do_not_show_a_robot_that_does_not_touch(task):
-    worlds = [task.make_world(2, threads=1) for _ in range(2)]
-    rng = np.random.default_rng(0)
-    for world in worlds:
-        world.reset(np.arange(2))
-    for _ in range(5):
-        person = rng.uniform(-1, 1, (2, 10))
-        one = worlds[0].step(rng.uniform(-1, 1, (2, 7)), person)
-        other = worlds[1].step(np.zeros((2, 7)), person)
-        np.testing.assert_array_equal(one.features, other.features)
-
-
-def test_features_tell_the_pose_that_the_replay_shows(task, bathed):
-    _, rows, snapshots = bathed
-    features = np.array([step.features[0] for step in rows])
-    assert isinstance(task, DrawsFeatures)
-    shown, replayed = task.human_poses(task.feature_names, features), task.replay(snapshots[:, 0])
-    names = task.scene()["bodies"]
-    chain = ["right_shoulder", "right_upper_arm", "right_forearm", "right_hand"]
-    assert [names[i] for i in shown["bodies"]] == chain
-    columns = [replayed["bodies"].index(body) for body in shown["bodies"]]
-    np.testing.assert_allclose(shown["poses"], replayed["poses"][:, columns], atol=1e-5)
-    assert task.human_poses(task.feature_names[1:], features[:, 1:]) is None

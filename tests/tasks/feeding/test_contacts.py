@@ -1,48 +1,29 @@
 """Forces are what MuJoCo's contact list says; only spoon and mouth may touch."""
 
-import mujoco
 import numpy as np
 import pytest
 
-from rigid.tasks.bodies import head, jaco, spoon
+from rigid.tasks.bodies import head, spoon
 from rigid.tasks.feeding.scene import PARTS
 from rigid.tasks.feeding.sensing import LIPS, Sensors
+from tests.tasks.contact_lists import substeps, swept, touches
 
 
 def forces(model, data):
     """Normal force on the person, of the spoon, and at the mouth [N], from the contact list."""
-    robot = model.body(jaco.BASE_BODY).id
-    person, held, mouth, force = 0.0, 0.0, 0.0, np.zeros(6)
-    for index, contact in enumerate(data.contact):
-        bodies = model.geom_bodyid[list(contact.geom)]
-        names = {model.body(int(body)).name for body in bodies}
-        if robot not in model.body_rootid[bodies] or not names & set(PARTS):
-            continue
-        mujoco.mj_contactForce(model, data, index, force)
-        near = np.linalg.norm(contact.pos - data.site(head.MOUTH_SITE).xpos) < LIPS
-        person += force[0]
-        held += force[0] * (spoon.SPOON_BODY in names)
-        mouth += force[0] * (names == {spoon.SPOON_BODY, head.HEAD_BODY} and bool(near))
+    person, held, mouth = 0.0, 0.0, 0.0
+    for force, place, names in touches(model, data, PARTS):
+        near = np.linalg.norm(place - data.site(head.MOUTH_SITE).xpos) < LIPS
+        person += force
+        held += force * (spoon.SPOON_BODY in names)
+        mouth += force * (names == {spoon.SPOON_BODY, head.HEAD_BODY} and bool(near))
     return person, held, mouth
 
 
 @pytest.fixture(scope="module")
 def pressed(task):
-    """A blind robot sweeps over the person: state and control before a step, its sensors, the step.
-
-    Random but steady actions; starts are those in which something is touched.
-    """
-    world, rng = task.make_world(24, threads=1), np.random.default_rng(3)
-    world.reset(np.arange(24))
-    rows, action = [], np.zeros((24, 7))
-    for number in range(100):
-        if number % 25 == 0:
-            action = rng.choice([-1.0, 1.0], (24, 7)) * rng.uniform(0.2, 1, (24, 7))
-        state = world._batch.state.copy()
-        step = world.step(action, np.zeros((24, 4)))
-        data = world._scene.records["sensordata"].copy()
-        rows.append((state, world._batch.bind("ctrl").copy(), data, step))
-    return world, rows
+    """A blind robot sweeps over a person who keeps still."""
+    return swept(task, 3, human_share=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -54,16 +35,12 @@ def presses(task, fed, pressed):
 
 
 def test_forces_are_those_of_the_contact_list_at_every_physics_step(task, presses):
-    data, found = mujoco.MjData(task.model), 0
+    found = 0
     for (state, control, recorded, step), seen in presses:
         touched = np.flatnonzero((seen.force_on_person.max(axis=1) > 0) & ~step.faulted)
         for index in touched[:2]:
-            flag = mujoco.mjtState.mjSTATE_INTEGRATION.value
-            mujoco.mj_setState(task.model, data, state[index], flag)
-            data.ctrl[:] = control[index]
-            for substep in range(5):
-                mujoco.mj_step(task.model, data)
-                np.testing.assert_array_equal(data.sensordata, recorded[index, substep])
+            shown = substeps(task, state[index], control[index], recorded[index])
+            for substep, data in enumerate(shown):
                 kinds = (seen.force_on_person, seen.force_spoon, seen.force_mouth)
                 one = [kind[index, substep] for kind in kinds]
                 np.testing.assert_allclose(one, forces(task.model, data), atol=1e-9)

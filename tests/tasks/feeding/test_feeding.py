@@ -3,7 +3,9 @@
 import numpy as np
 
 from rigid.tasks.feeding.food import Piece
-from tests.tasks.feeding.conftest import SEEDS, play
+from tests.tasks.feeding.conftest import SEEDS
+from tests.tasks.feeding.feeder import Feeder
+from tests.tasks.playing import played
 
 
 def total(rows, name):
@@ -21,7 +23,7 @@ def test_a_scripted_robot_feeds_everybody_who_keeps_still(fed):
 
 def test_a_person_who_turns_away_is_not_fed(task):
     away = np.tile([0.0, 1.0, 0.0, 1.0], (len(SEEDS), 1))  # Nods and turns to the left.
-    world, rows, _ = play(task, lambda _: away)
+    world, rows, _ = played(task, Feeder(task), lambda _: away, SEEDS)
     assert world.summary().success.mean() < 0.5
     assert (total(rows, "reward_food") < 160).any()
 

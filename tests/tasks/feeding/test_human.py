@@ -6,7 +6,6 @@ import pytest
 
 from rigid.tasks.bodies import head, human, jaco
 from rigid.tasks.feeding.task import Feeding
-from rigid.tasks.protocol import DrawsFeatures
 
 LIMITS_DEG = {"neck": (-10, 20), "head_x": (-50, 50), "head_y": (-34, 34), "head_z": (-70, 70)}
 
@@ -88,29 +87,6 @@ def test_features_are_the_head_alone(task, fed):
     assert rows[-1].features.shape[1] == len(task.feature_names) == 8
     # A robot that moves and touches leaves a still person's head all but where it was.
     np.testing.assert_allclose(rows[0].features[:, :4], rows[30].features[:, :4], atol=1e-6)
-
-
-def test_features_do_not_show_the_robot(task):
-    worlds = [task.make_world(2, threads=1) for _ in range(2)]
-    rng = np.random.default_rng(0)
-    for world in worlds:
-        world.reset(np.arange(2))
-    for _ in range(5):
-        person = rng.uniform(-1, 1, (2, 4))
-        one = worlds[0].step(rng.uniform(-1, 1, (2, 7)), person)
-        other = worlds[1].step(np.zeros((2, 7)), person)
-        np.testing.assert_array_equal(one.features, other.features)
-
-
-def test_features_tell_the_pose_that_the_replay_shows(task, fed):
-    _, rows, snapshots = fed
-    features = np.array([step.features[0] for step in rows])
-    assert isinstance(task, DrawsFeatures)
-    shown, replayed = task.human_poses(task.feature_names, features), task.replay(snapshots[:, 0])
-    assert [task.model.body(i).name for i in shown["bodies"]] == ["neck", "head"]
-    columns = [replayed["bodies"].index(body) for body in shown["bodies"]]
-    np.testing.assert_allclose(shown["poses"], replayed["poses"][:, columns], atol=1e-5)
-    assert task.human_poses(task.feature_names[1:], features[:, 1:]) is None
 
 
 @pytest.mark.parametrize(

@@ -1,28 +1,17 @@
 """What each player sees: sizes of the original, frames, and the mouth for both."""
 
-import mujoco
 import numpy as np
 import pytest
 
 from rigid.tasks.bodies import head, spoon, wheelchair
 from rigid.tasks.feeding.observation import HUMAN_NAMES, ROBOT_NAMES
+from tests.tasks.playing import point, start_by_name
 
 
 @pytest.fixture(scope="module")
 def start(task):
     """The scene at the start of an episode, and what is seen of it by name."""
-    world = task.make_world(1, threads=1)
-    step = world.reset(np.array([5]))
-    data = mujoco.MjData(task.model)
-    data.qpos[:] = world._batch.bind("qpos")[0]
-    mujoco.mj_forward(task.model, data)
-    robot = dict(zip(ROBOT_NAMES, step.robot_observation[0], strict=True))
-    person = dict(zip(HUMAN_NAMES, step.human_observation[0], strict=True))
-    return data, robot, person
-
-
-def point(seen, name):
-    return np.array([seen[f"{name}_{axis}"] for axis in "xyz"])
+    return start_by_name(task, 5)
 
 
 def test_both_see_as_many_numbers_as_in_the_original(task):

@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 import gymnasium
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import check_env
 
 from rigid.errors import UserError
 from rigid.policies.passive import PassivePolicy
@@ -38,18 +37,6 @@ class Recorder:
 
 def make(**options):
     return gymnasium.make(ITCH_SCRATCHING, **options)
-
-
-@pytest.mark.parametrize("player", PLAYERS)
-def test_the_contract_is_kept(player):
-    check_env(make(player=player, horizon=5).unwrapped)
-
-
-@pytest.mark.parametrize("player", PLAYERS)
-def test_the_spaces_are_those_of_the_player(task, player):
-    env, spec = make(player=player), getattr(task, player)
-    assert env.observation_space.shape == (spec.observation_size,)
-    assert env.action_space.shape == (spec.action_size,)
 
 
 def test_registering_twice_is_harmless():

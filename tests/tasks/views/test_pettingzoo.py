@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from pettingzoo.test import api_test, parallel_api_test, parallel_seed_test, seed_test
+from pettingzoo.test import api_test, seed_test
 
-from rigid.errors import UserError
 from rigid.tasks import itch_scratching_v0
 from rigid.tasks.views.pettingzoo import TwoPlayerEnv
 from tests.tasks.scripted import random_actions
@@ -22,15 +21,6 @@ def play(env, seed, steps, rng_seed=0):
         robot, person = random_actions(rng, 1)
         rows.append(env.step({"robot": robot[0], "human": person[0]}))
     return rows
-
-
-def test_the_parallel_contract_is_kept(env, capsys):
-    parallel_api_test(env, num_cycles=150)
-    assert "Passed" in capsys.readouterr().out
-
-
-def test_equal_seeds_play_equal_episodes(task):
-    parallel_seed_test(lambda: TwoPlayerEnv(task), num_cycles=30)
 
 
 # It would have players numbered and alike; ours are called after their roles.
@@ -149,11 +139,3 @@ def test_actions_that_do_not_fit_are_refused(env, actions, message):
     env.reset(seed=0)
     with pytest.raises(ValueError, match=message):
         env.step(actions)
-
-
-def test_parameters_of_the_task_are_keywords():
-    env = itch_scratching_v0.parallel_env(horizon=2, body="female")
-    play(env, seed=0, steps=2)
-    assert env.agents == []
-    with pytest.raises(UserError, match="unknown parameter 'bodi', did you mean 'body'"):
-        itch_scratching_v0.env(bodi="female")
