@@ -71,6 +71,15 @@ test("success under attack is the mean over seeds, canonical where a seed found 
   assert.ok(Math.abs((successUnderAttack(payload, 0.9) ?? NaN) - (0.3 + 0.9) / 2) < 1e-12);
 });
 
+test("a human with more than 1 % of faulted episodes neither opens the page nor speaks for its seed", () => {
+  const points = [
+    point("faulted", 0.95, 0.9, { success: 0, faults: 3, episodes: 200 }),
+    point("sound", 0.95, 0.5, { success: 0.3, faults: 2, episodes: 200 }),
+  ];
+  assert.equal(firstPoint(payloadOf(points))?.id, "sound");
+  assert.equal(successUnderAttack(payloadOf(points), 0.9), 0.3);
+});
+
 test("a headline without an interval has none, not one made of nulls", () => {
   const payload = payloadOf([], { auc: 0.6, auc_interval: [null, 0.7], worst_at: { "0.9": 0.4 }, worst_at_interval: { "0.9": [0.3, 0.5] } });
   assert.deepEqual(scalar(payload, "auc"), { value: 0.6, interval: null });

@@ -4,6 +4,7 @@ import { count, fixed, lambdaText, percent, UNKNOWN } from "../base/format.js";
 import { dict, number, text } from "../base/read.js";
 import type { Signal } from "../base/signal.js";
 import { outcomeBar } from "../chart/outcomes.js";
+import { faultedTooOften } from "./measures.js";
 import type { Payload, Point } from "./payload.js";
 import { axisSentence, isPassive, levelText, title } from "./words.js";
 
@@ -59,12 +60,9 @@ function otherOutcomes({ raw }: Point): HTMLElement {
   return h("dl", { class: "entries" }, ...shares.map(([name, share]) => entry(name.replaceAll("_", " "), percent(share))));
 }
 
-/** More faulted episodes than this bar a point from the frontier. */
-const MAX_FAULTS = 0.01;
-
-function standing({ onFrontier, faults, episodes }: Point): string {
-  if (onFrontier) return "On the frontier.";
-  return (faults ?? 0) > MAX_FAULTS * (episodes ?? Infinity)
+function standing(point: Point): string {
+  if (point.onFrontier) return "On the frontier.";
+  return faultedTooOften(point)
     ? "Not on the frontier: more than 1 % of its episodes faulted."
     : "Dominated: another human is at least as natural and as harmful.";
 }

@@ -36,9 +36,18 @@ export function seedsOf(payload: Payload): number[] {
   return [...seeds].sort((a, b) => a - b);
 }
 
+/** More faulted episodes than this share bar a point from the frontier. */
+const MAX_FAULTS = 0.01;
+
+/** Whether so many of its episodes faulted that a point counts nowhere. */
+export function faultedTooOften({ faults, episodes }: Point): boolean {
+  return (faults ?? 0) > MAX_FAULTS * (episodes ?? Infinity);
+}
+
 function mostAdversarial(points: readonly Point[], threshold: number): Point | null {
   let worst: Point | null = null;
   for (const point of points) {
+    if (faultedTooOften(point)) continue;
     if (point.naturalness === null || point.adversarialness === null) continue;
     if (point.naturalness < threshold) continue;
     if (worst === null || point.adversarialness > (worst.adversarialness ?? -Infinity)) worst = point;
