@@ -69,6 +69,16 @@ def test_a_first_slow_step_does_not_make_hours_of_minutes(pace, watch):
     assert pace.left(60_000) < 60.0 * 1.3
 
 
+def test_between_two_steps_the_time_left_does_not_grow(pace, watch):
+    pace.expect(2.0)
+    pace.advance(1)
+    watch.seconds += 10.0
+    pace.advance(20)
+    before = pace.left(100)
+    watch.seconds += 30.0
+    assert pace.left(100) == before
+
+
 def test_without_an_expectation_the_speed_is_that_of_steps_after_the_first(pace, watch):
     pace.advance(5)
     assert pace.left(10) is None

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 import pytest
+from rich.console import Console
 
+from rigid.commands import progress
 from rigid.commands.training_progress import show_progress, show_stages
 from rigid.learning.cooptimisation import Progress
+from tests.toys import ToyReach
 
 
 @pytest.mark.parametrize(
@@ -95,34 +100,36 @@ def test_the_bar_of_a_robot_names_its_recipe(rigid, toys, tmp_path, monkeypatch)
 
     monkeypatch.setattr(vanilla, "train_vanilla", train)
     options = ("--task", "toy-reach", "--pair", toys, "--out", tmp_path / "robot")
-    assert "training vanilla" in rigid("train", "vanilla", *options)[2]
+    assert "vanilla · return" in rigid("train", "vanilla", *options)[2]
 
 
 def test_of_two_stages_only_the_one_that_is_under_way_has_a_running_clock():
     with show_stages(("population", 2), ("robot", 3)) as (first, second):
         one, two = first._bar.tasks
+        first.begin(ToyReach(), 4, done=0)
         assert (one.elapsed is None, two.elapsed is None) == (False, True)
         first(Progress(1, 0.0, 0.5, 0.1))
-        assert one.stop_time is not None
+        second.begin(ToyReach(), 4, done=0)
+        assert second._times.render(one).plain == "0:00"
         assert two.elapsed is not None
         second(Progress(0, 0.0, 0.5, 0.1))
         assert (one.completed, two.completed) == (2, 1)
 
 
-def test_a_stage_whose_predecessor_was_stored_earlier_begins_by_itself():
+def test_a_stage_that_was_stored_earlier_is_shown_as_done():
     with show_stages(("population", 2), ("robot", 3)) as (_, second):
-        second(Progress(0, 0.0, 0.5, 0.1))
-        assert second._bar.tasks[1].elapsed is not None
+        second.begin(ToyReach(), 4, done=0)
+        one, two = second._bar.tasks
+        assert one.completed == 2
+        assert two.elapsed is not None
 
 
 def test_a_bar_moves_within_a_slow_iteration_and_never_beyond_it(monkeypatch):
-    from rigid.commands import progress
-    from tests.toys import ToyReach
-
     monkeypatch.setattr(progress, "PATIENCE", 0.0)
     task = ToyReach()
     with show_progress("co-optimising", 3) as report:
-        seen, bar = report.within(task, 4), report._bar.tasks[0]
+        report.begin(task, 4, done=0)
+        seen, bar = report.watch(task), report._bar.tasks[0]
         world, still = seen.make_world(4), np.zeros((4, 1))
         for _ in range(2):
             world.reset(np.arange(4))
@@ -139,14 +146,23 @@ def test_a_bar_moves_within_a_slow_iteration_and_never_beyond_it(monkeypatch):
             report(Progress(-1, 0.0, 0.5, 0.1))
 
 
-def test_a_training_says_how_long_it_will_take_before_its_first_iteration_is_done():
-    from tests.toys import ToyReach
-
+def test_a_training_says_how_long_it_will_take_before_its_first_iteration_is_done(capsys):
     with show_progress("co-optimising", 3) as report:
-        report.within(ToyReach(), 4)
+        report.begin(ToyReach(), 4, done=0)
         assert "compiling" in report._times.rest(report._bar.tasks[0])
         report(Progress(0, 0.0, 0.5, 0.1))
         assert "compiling" not in report._times.rest(report._bar.tasks[0])
+    assert "co-optimising: 3 iterations of 40 steps; about 8 s" in capsys.readouterr().err
+
+
+def test_what_an_earlier_call_trained_is_shown_at_once_and_says_nothing_of_the_speed(capsys):
+    with show_progress("vanilla", 100) as report:
+        report.begin(ToyReach(), 4, done=90)
+        assert report._bar.tasks[0].completed == 90
+        expected = report._pace.left(9)
+        report(Progress(90, 1.0, 0.5, 0.1))
+        assert report._pace.left(9) <= expected
+    assert "100 iterations of 40 steps, of which 90 are done; about" in capsys.readouterr().err
 
 
 def test_a_log_of_a_training_tells_the_time_left(capsys):
@@ -156,10 +172,18 @@ def test_a_log_of_a_training_tells_the_time_left(capsys):
     assert "co-optimising 10/20 · return 1.0 · success 0.50 · 0 s left\n" in capsys.readouterr().err
 
 
-def test_what_an_earlier_call_trained_says_nothing_of_the_speed():
-    with show_progress("co-optimising", 100) as report:
-        report(Progress(90, 1.0, 0.5, 0.1))
-        assert report._pace.left(9) is None
+@pytest.mark.parametrize("what", ["co-optimising", "vanilla", "diverse pair", "round-1"])
+def test_a_line_of_80_columns_holds_all_of_a_bar(what):
+    console = Console(width=80, file=io.StringIO(), force_terminal=True)
+    with show_progress(what, 160) as report:
+        report(Progress(99, -123.4, 0.5, 0.1))
+        task = report._bar.tasks[0]
+        task.start_time = task.get_time() - 725.0
+        console.print(report._bar)
+    line = console.file.getvalue()
+    for part in (what, "return -123.4 · success 0.50", "100/160", "12:05 so far"):
+        assert part in line
+    assert "…" not in line
 
 
 def test_a_refused_training_draws_no_bar(rigid, toys, monkeypatch):

@@ -28,6 +28,13 @@ class Seen:
 
     def __init__(self, last=None):
         self.iterations, self._last = [], last
+        self.begun = None
+
+    def begin(self, task, episodes, done):
+        self.begun = (task.horizon, episodes, done)
+
+    def watch(self, task):
+        return task
 
     def __call__(self, progress):
         self.iterations.append(progress.iteration)

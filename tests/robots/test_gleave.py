@@ -57,6 +57,7 @@ def test_interrupted_in_either_stage_it_ends_like_an_undisturbed_one(train, robo
     population, report = Seen(), Seen()
     train(tmp_path, population=population, report=report)
     assert (population.iterations, report.iterations) == ([], [10, 11, 12, 13])
+    assert (population.begun, report.begun[2]) == (None, 10)
     assert names(tmp_path) == names(robot)
     assert same(tmp_path, robot)
 

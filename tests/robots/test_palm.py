@@ -90,6 +90,7 @@ def test_interrupted_in_either_stage_it_ends_like_an_undisturbed_one(train, robo
     diverse, report = Seen(), Seen()
     train(tmp_path, diverse=diverse, report=report)
     assert (diverse.iterations, report.iterations) == ([], [10, 11, 12, 13])
+    assert (diverse.begun, report.begun[2]) == (None, 10)
     assert names(tmp_path) == names(robot)
     assert same(tmp_path, robot)
 

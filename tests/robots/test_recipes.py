@@ -69,6 +69,7 @@ def test_an_interrupted_pair_ends_like_an_undisturbed_one(pair, tmp_path):
     seen = Seen()
     co_optimise(tmp_path, seen)
     assert seen.iterations == [10, 11, 12, 13]  # From the last checkpoint on.
+    assert seen.begun == (ToyReach().horizon, PAIR.episodes, 10)
     assert names(tmp_path) == names(pair)
     for agent in ("human", "robot"):
         assert same(tmp_path / agent, pair / agent)
@@ -81,6 +82,7 @@ def test_an_interrupted_robot_ends_like_an_undisturbed_one(vanilla, robot, tmp_p
     seen = Seen()
     vanilla(tmp_path, seen)
     assert seen.iterations == [10, 11, 12, 13]
+    assert seen.begun == (ToyReach().horizon, VANILLA.episodes, 10)
     assert names(tmp_path) == names(robot)
     assert same(tmp_path, robot)
     assert (tmp_path / "canonical.npz").read_bytes() == (robot / "canonical.npz").read_bytes()

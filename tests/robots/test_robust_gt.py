@@ -91,6 +91,7 @@ def test_an_interrupted_robot_ends_like_an_undisturbed_one(run, tmp_path):
     seen = Seen()
     train(lesson, tmp_path / "other", report=seen)
     assert seen.iterations == [10, 11, 12, 13]
+    assert seen.begun[2] == 10
     assert names(tmp_path / "other") == names(undisturbed)
     assert same(tmp_path / "other", undisturbed)
 

@@ -26,6 +26,7 @@ class Pace:
         self._speed: float | None = None
         self._starting = 0.0
         self._since: float | None = None
+        self._last = 0.0
         self._steps = 0
 
     @property
@@ -44,18 +45,21 @@ class Pace:
 
     def advance(self, steps: int) -> None:
         """Steps that were done since the last call."""
+        self._last = self._now()
         if self._since is None:
-            self._since = self._now()
+            self._since = self._last
         else:
             self._steps += steps
 
     def left(self, steps: float) -> float | None:
-        """Time for so many steps [s]; None where nothing is known."""
-        now = self._now()
+        """Time for so many steps [s]; None where nothing is known.
+
+        Between two steps it does not grow: they may come in groups.
+        """
         if self._since is None:
             if self._speed is None:
                 return None
-            return max(self._starting - (now - self._begun), 0.0) + steps / self._speed
+            return max(self._starting - (self._now() - self._begun), 0.0) + steps / self._speed
         trust = 0.0 if self._speed is None else _TRUST
         seen = self._steps + trust * (self._speed or 0.0)
-        return steps * (trust + now - self._since) / seen if seen else None
+        return steps * (trust + self._last - self._since) / seen if seen else None

@@ -49,6 +49,8 @@ class TimeColumn(ProgressColumn):
         """The times of one bar."""
         if task.elapsed is None:  # Another one comes first.
             return Text("")
+        if task.stop_time is not None:  # Another one followed.
+            return Text(clock(task.elapsed))
         return Text(f"{clock(task.elapsed)} so far{self.rest(task)}")
 
     def rest(self, task: Bar) -> str:

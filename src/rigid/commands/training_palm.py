@@ -45,8 +45,8 @@ class PalmCommand(RobotOptions):
         with (
             goes_on(self.out),
             show_stages(
-                ("co-optimising a diverse pair", diverse.iterations),
-                ("training palm", palm.personalisation.iterations),
+                ("diverse pair", diverse.iterations),
+                ("palm", palm.personalisation.iterations),
             ) as (report_diverse, report),
         ):
             error = train_palm(

@@ -9,6 +9,7 @@ from math import isnan
 from typing import TYPE_CHECKING, final
 
 from rigid.commands.pace import Pace
+from rigid.commands.parsing import spoken
 
 if TYPE_CHECKING:
     import rich.progress
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 @final
 class Shown:
-    """Told after every iteration, as `rigid.robots.storing.Report`; and within one, if asked."""
+    """A bar that hears of a training, as `rigid.robots.storing.Report`."""
 
     def __init__(
         self, bar: rich.progress.Progress, times: TimeColumn, what: str, iterations: int
@@ -29,54 +30,72 @@ class Shown:
         self._what, self._iterations = what, iterations
         self._pace = Pace()
         self._task = bar.add_task(what, total=iterations, done=0, start=False, pace=self._pace)
-        self._done, self._within = 0, 0.0
-        self.then: Shown | None = None
-        """The stage that follows."""
+        self._done, self._within, self._per_iteration = 0, 0.0, 1
+        self.before: Shown | None = None
+        """The stage before this one."""
 
     def start(self) -> None:
         """Its clock runs from now on, if it does not yet."""
         if self._bar.tasks[self._task].start_time is None:
             self._bar.start_task(self._task)
 
+    def begin(self, task: Task, episodes: int, done: int) -> None:
+        """Says how long it will take, to judge by the task's speed."""
+        from rigid.compute.budget import STARTING_SECONDS, training_speed
+
+        if self.before is not None:
+            self.before.end()
+        self.start()
+        self._per_iteration = episodes * task.horizon
+        speed = training_speed(task) / self._per_iteration
+        self._pace.expect(speed, STARTING_SECONDS)
+        self._go_to(done)
+        seconds = STARTING_SECONDS + (self._iterations - done) / speed
+        kept = f", of which {done} are done" if done else ""
+        self._say(
+            f"{self._what}: {self._iterations} iterations of {self._per_iteration:,} steps{kept}; "
+            f"about {spoken(seconds)}"
+        )
+
+    def watch(self, task: Task) -> Task:
+        """The same task, whose steps move the bar within iterations."""
+        from rigid.commands.progress import PATIENCE
+        from rigid.tasks.views.watched import watched
+
+        return watched(task, self._step, PATIENCE)
+
     def __call__(self, progress: Progress) -> None:
         """An iteration is done."""
         self._bar.start()
-        self.start()  # Of a stage before it nothing is heard when that was stored earlier.
         self._pace.advance(1)
         seen = f"return {progress.mean_return:.1f}"
         if not isnan(progress.success):  # Of a task that defines none.
             seen += f" · success {progress.success:.2f}"
-        self._done, self._within = progress.iteration + 1, 0.0
-        self._bar.update(
-            self._task, completed=self._done, done=self._done, description=f"{self._what} · {seen}"
-        )
+        self._go_to(progress.iteration + 1)
+        self._bar.update(self._task, description=f"{self._what} · {seen}")
         # A bar does not show in a log.
         if not self._bar.console.is_terminal and self._done % 10 == 0:
-            counted = f"{self._what} {self._done}/{self._iterations}"
             left = self._times.rest(self._bar.tasks[self._task])
-            self._bar.console.print(f"{counted} · {seen}{left}", highlight=False, soft_wrap=True)
-        if self._done == self._iterations and self.then is not None:
-            self._bar.stop_task(self._task)
-            self.then.start()
+            self._say(f"{self._what} {self._done}/{self._iterations} · {seen}{left}")
 
-    def within(self, task: Task, episodes: int) -> Task:
-        """The same task, whose steps move the bar within iterations of so many episodes.
+    def end(self) -> None:
+        """Another stage follows; this one may have been stored by an earlier call."""
+        self._go_to(self._iterations)
+        self._bar.update(self._task, description=self._what)
+        self._bar.stop_task(self._task)
 
-        How long they take is expected from the task's speed.
-        """
-        from rigid.commands.progress import PATIENCE
-        from rigid.compute.budget import STARTING_SECONDS, training_speed
-        from rigid.tasks.views.watched import watched
+    def _step(self, env_steps: int) -> None:
+        self._within = min(self._within + env_steps / self._per_iteration, 0.99)
+        if self._done < self._iterations:  # Afterwards canonical episodes are played.
+            self._bar.update(self._task, completed=self._done + self._within)
 
-        per_iteration = episodes * task.horizon
-        self._pace.expect(training_speed(task) / per_iteration, STARTING_SECONDS)
+    def _go_to(self, done: int) -> None:
+        self._done, self._within = done, 0.0
+        self._bar.update(self._task, completed=done, done=done)
 
-        def tell(env_steps: int) -> None:
-            self._within = min(self._within + env_steps / per_iteration, 0.99)
-            if self._done < self._iterations:  # Afterwards canonical episodes are played.
-                self._bar.update(self._task, completed=self._done + self._within)
-
-        return watched(task, tell, PATIENCE)
+    def _say(self, text: str) -> None:
+        whole = not self._bar.console.is_terminal  # A log is searched.
+        self._bar.console.print(text, highlight=False, markup=False, soft_wrap=whole)
 
 
 @contextmanager
@@ -107,8 +126,8 @@ def show_stages(*stages: tuple[str, int]) -> Iterator[list[Shown]]:
     counted = TextColumn("{task.fields[done]}/{task.total}", table_column=Column(no_wrap=True))
     bar = bar_of(Console(stderr=True), counted, times := TimeColumn("storing"))
     shown = [Shown(bar, times, what, iterations) for what, iterations in stages]
-    for stage, then in pairwise(shown):
-        stage.then = then
+    for before, stage in pairwise(shown):
+        stage.before = before
     shown[0].start()
     with drawn_late(bar):
         yield shown

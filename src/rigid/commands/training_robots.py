@@ -45,8 +45,7 @@ class CoOptimizeCommand(TaskOptions):
             settings = CoOptimisationSettings(iterations=self.iterations)
         settings = fitted(settings, task.horizon)
         with goes_on(self.out), show_progress("co-optimising", settings.iterations) as report:
-            shown = report.within(task, settings.episodes)
-            train_pair(shown, settings, seed=self.seed, out=self.out, report=report)
+            train_pair(task, settings, seed=self.seed, out=self.out, report=report)
         print(f"human: {self.out / 'human'}\nrobot: {self.out / 'robot'}")
         return 0
 
@@ -102,10 +101,9 @@ class VanillaCommand(RobotOptions):
         settings = fitted(replace(PersonalisationSettings(), memory=self.memory), task.horizon)
         if self.iterations is not None:
             settings = replace(settings, iterations=self.iterations)
-        with goes_on(self.out), show_progress("training vanilla", settings.iterations) as report:
-            shown = report.within(task, settings.episodes)
+        with goes_on(self.out), show_progress("vanilla", settings.iterations) as report:
             train_vanilla(
-                shown, settings, pair=self.pair, seed=self.seed, out=self.out,
+                task, settings, pair=self.pair, seed=self.seed, out=self.out,
                 canonical_episodes=self.episodes, report=report,
             )  # fmt: skip
         print(f"robot: {self.out}")
@@ -150,8 +148,8 @@ class GleaveCommand(RobotOptions):
         with (
             goes_on(self.out),
             show_stages(
-                ("co-optimising a population", population.iterations),
-                ("training gleave", personalisation.iterations),
+                ("population", population.iterations),
+                ("gleave", personalisation.iterations),
             ) as (of_population, report),
         ):
             train_gleave(

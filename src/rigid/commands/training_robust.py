@@ -75,7 +75,9 @@ class RobustCommand(MeasuredTaskOptions):
             runs = train_in_rounds(
                 self.run_, settings, preset, rounds=self.rounds, seed=self.seed, out=self.out,
                 canonical_episodes=self.episodes, task=self.named_task(), robot=self.robot,
-                training=lambda name: show_progress(f"{name}: retraining", length),
+                training=lambda name: show_progress(
+                    name if self.rounds > 1 else "robust-gt", length
+                ),
                 searching=_searching,
             )  # fmt: skip
         fresh = seeds_not_used(runs, len(preset.seeds))

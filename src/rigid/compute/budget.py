@@ -20,8 +20,8 @@ time only (measured .9e-4 to 2.3e-4)."""
 _ON_ONE_CORE = 1.4
 """Time that stepping takes on one core, over that on all; for estimates of time only (measured 1.4
 to 1.7 on two: policies and what Python does are not divided among threads)."""
-STARTING_SECONDS = 15.0
-"""Compilation of a robot's training (measured 10-20 s)."""
+STARTING_SECONDS = 8.0
+"""Compilation of a robot's training (measured 5-15 s)."""
 COMPILING_SECONDS = 35.0
 """Compilation of training and referees (measured 20-40 s), in resumed measurements too."""
 FIXED_SECONDS = 40.0

@@ -39,9 +39,9 @@ def retrain(name: str) -> None:
     with tempfile.TemporaryDirectory() as scratch:
         pair, robot = Path(scratch) / "pair", Path(scratch) / "vanilla"
         co_optimisation, personalisation = CoOptimisationSettings(), PersonalisationSettings()
-        with show_progress(f"{name}: co-optimised pair", co_optimisation.iterations) as report:
+        with show_progress(f"{name} pair", co_optimisation.iterations) as report:
             train_pair(task, co_optimisation, seed=SEED, out=pair, report=report)
-        with show_progress(f"{name}: vanilla robot", personalisation.iterations) as report:
+        with show_progress(f"{name} vanilla", personalisation.iterations) as report:
             train_vanilla(
                 task, personalisation, pair=pair, seed=SEED, out=robot,
                 canonical_episodes=PRESETS["standard"].search_canonical, report=report,

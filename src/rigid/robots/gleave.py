@@ -89,10 +89,11 @@ def train_gleave(
     expert = population.load("robot", "robot", privileged)
     humans = [synthetic, *(population.load(name, "human", task) for name in population.humans)]
     start = checkpoint.resume(start_robot(task, privileged, settings.personalisation, seed))
+    report.begin(privileged, settings.personalisation.episodes, start[1])
 
     learner = personalise(
-        task, privileged, [Partner(human, expert) for human in humans], settings.personalisation,
-        seed=seed, start=start, report=checkpoint.keeping(report),
+        task, report.watch(privileged), [Partner(human, expert) for human in humans],
+        settings.personalisation, seed=seed, start=start, report=checkpoint.keeping(report),
     )  # fmt: skip
     robot = GaussianPolicy(learner.policy, memory=settings.personalisation.memory)
     store_robot(
@@ -118,10 +119,12 @@ class _Population:
         privileged = privileged_view(self._task)
         checkpoint = Checkpoint(self._place, self._task, dict(made_by))
         fresh = start_team(privileged, self._settings, seed, humans=len(self.humans))
+        start = checkpoint.resume(fresh)
+        report.begin(privileged, self._settings.episodes, start[1])
 
         team = co_optimise(
-            privileged, self._settings,
-            seed=seed, start=checkpoint.resume(fresh), grown_up=[synthetic],
+            report.watch(privileged), self._settings,
+            seed=seed, start=start, grown_up=[synthetic],
             report=checkpoint.keeping(report),
         )  # fmt: skip
         self._store("robot", "robot", team.robot, privileged, made_by)

@@ -35,10 +35,12 @@ def train_pair(
     made_by = provenance("co-optimize", settings, seed)
     checkpoint = Checkpoint(out, task, made_by)
     start = checkpoint.resume(start_team(privileged, settings, seed))
+    report.begin(privileged, settings.episodes, start[1])
 
     team = co_optimise(
-        privileged, settings, seed=seed, start=start, report=checkpoint.keeping(report)
-    )
+        report.watch(privileged), settings,
+        seed=seed, start=start, report=checkpoint.keeping(report),
+    )  # fmt: skip
     made: tuple[tuple[Agent, Learner, Task], ...] = (
         ("robot", team.robot, privileged),
         ("human", team.humans[0], task),  # Last: who finds it may rely on both.

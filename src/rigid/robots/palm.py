@@ -98,16 +98,13 @@ def train_palm(
     checkpoint = Checkpoint(out, task, made_by, beside=(_DIVERSE,))
     _train_diverse(diverse, recipe.diverse, seed=seed, out=out / _DIVERSE, report=report_diverse)
     companions.append(_companion(out / _DIVERSE, diverse, recipe.diverse_share))
-    start = start_palm(task, companions[0].task, recipe.palm, seed)
+    start = checkpoint.resume(start_palm(task, companions[0].task, recipe.palm, seed))
+    report.begin(companions[0].task, recipe.palm.personalisation.episodes, start[1])
 
     learner = personalise_palm(
-        task,
-        companions,
-        recipe.palm,
-        seed=seed,
-        start=checkpoint.resume(start),
-        report=checkpoint.keeping(report),
-    )
+        task, [one._replace(task=report.watch(one.task)) for one in companions], recipe.palm,
+        seed=seed, start=start, report=checkpoint.keeping(report),
+    )  # fmt: skip
     partners = [one.partner for one in companions]
     prediction = held_out_prediction(
         [task, diverse], partners, learner, recipe.palm,

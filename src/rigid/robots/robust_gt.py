@@ -204,10 +204,12 @@ def train_robust_gt(
         if settings.from_scratch
         else continue_robot(task, privileged, training, lesson.robot, seed)
     )
+    start = checkpoint.resume(fresh)
+    report.begin(privileged, training.episodes, start[1])
 
     learner = personalise(
-        task, privileged, _partners(lesson, settings), training,
-        seed=seed, start=checkpoint.resume(fresh), report=checkpoint.keeping(report),
+        task, report.watch(privileged), _partners(lesson, settings), training,
+        seed=seed, start=start, report=checkpoint.keeping(report),
     )  # fmt: skip
     robot = GaussianPolicy(learner.policy, memory=training.memory)
     store_robot(

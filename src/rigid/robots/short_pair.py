@@ -61,7 +61,7 @@ def train_short_pair(task: Task, out: Path, *, showing: Showing) -> tuple[str, s
         return str(pair / "robot"), str(pair / "human")
     if not (robot / CARD_FILE).exists():
         personal = fitted(replace(_ROBOT, reward_scale=scale), task.horizon)
-        with showing("training a robot", personal.iterations) as report:
+        with showing("robot", personal.iterations) as report:
             train_vanilla(
                 task, personal, pair=pair, seed=0, out=robot, canonical_episodes=_EPISODES,
                 report=report,

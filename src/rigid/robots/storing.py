@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Collection
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 import jax.numpy as jnp
 
@@ -35,7 +35,26 @@ _CHECKPOINT_EVERY = 10  # Iterations.
 _CHECKPOINT = re.compile(r"checkpoint\.safetensors|\.checkpoint\.safetensors\.\d+\.tmp")
 """A checkpoint, or what a training leaves that was killed at its very first write."""
 _Learner = TypeVar("_Learner")
-Report = Callable[[Progress], None]
+
+
+@runtime_checkable
+class Report(Protocol):
+    """Told how a training goes on."""
+
+    def begin(self, task: Task, episodes: int, done: int) -> None:
+        """It begins, or goes on.
+
+        Args:
+            task: Where it plays.
+            episodes: Of an iteration.
+            done: Iterations that earlier calls have done.
+        """
+
+    def watch(self, task: Task) -> Task:
+        """The same task, of whose steps it wants to hear."""
+
+    def __call__(self, progress: Progress) -> None:
+        """An iteration is done."""
 
 
 class Checkpoint:

@@ -49,10 +49,11 @@ def train_vanilla(
     }  # fmt: skip
     checkpoint = Checkpoint(out, task, made_by)
     start = checkpoint.resume(start_robot(task, privileged, settings, seed))
+    report.begin(privileged, settings.episodes, start[1])
 
     learner = personalise(
         task,
-        privileged,
+        report.watch(privileged),
         [Partner(human, expert)],
         settings,
         seed=seed,
