@@ -95,7 +95,7 @@ def test_methods_have_a_row_each_with_intervals_over_robots_and_seeds(rigid, met
     assert lines[2].split()[:3] == ["vanilla", "1.00", "0.500"]
     assert lines[7] == "minus vanilla, on the robots and search seeds that both have"
     assert lines[10].split()[:2] == ["robust", "-0.200"]
-    assert lines[11].split()[:2] == ["[-0.20,", "-0.20]"]
+    assert lines[11].split()[:2] == ["[-0.200,", "-0.200]"]
     assert lines[15].split() == ["robust", "1.00", "[0.96,", "1.00]", "2", "2"]
     assert "95 % intervals over robots and search seeds" in out
 
@@ -122,14 +122,14 @@ def test_names_fold_and_numbers_stay_whole(rigid, methods, tmp_path, monkeypatch
     numbers = rigid("compare", methods[0], long)[1].partition("\n\n")[0]
     names = [line.split("  ")[0] for line in numbers.splitlines() if line[0] != " "]
     assert LONG in "".join(names)
-    assert "[0.00, 1.00]" in numbers
+    assert "[0.000, 1.000]" in numbers
 
 
 def test_a_wide_terminal_shows_intervals_beside_their_numbers(rigid, methods, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
     lines = rigid("compare", *methods)[1].splitlines()
     assert lines[1].startswith("vanilla     1.00  0.500 [")
-    assert lines[6].startswith("robust  -0.200 [-0.20, -0.20]")
+    assert lines[6].startswith("robust  -0.200 [-0.200, -0.200]")
 
 
 def test_where_no_seed_found_a_natural_human_the_robot_is_named(rigid, two_runs):

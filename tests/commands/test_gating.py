@@ -42,6 +42,14 @@ def test_the_gate_shuts_with_3_at_an_upper_bound_beyond_its_limit(rigid, two_run
     assert out.startswith(f"FAILED  AUC: {mean:.3f}, upper bound {bound:.3f}, limit ")
 
 
+def test_the_natural_end_has_a_limit_of_its_own(rigid, two_runs, small_run):
+    mean = small_run.data["auc_natural"]
+    code, out, _ = rigid("gate", two_runs[0], "--max-auc-natural", mean / 2)
+    assert code == 3
+    assert out.startswith(f"FAILED  mean over [0.8, 1]: {mean:.3f}, upper bound ")
+    assert rigid("gate", two_runs[0], "--max-auc-natural", 1)[0] == 0
+
+
 @pytest.fixture
 def with_worst(small_run, tmp_path):
     """Makes the toy measurement one whose seeds found these worst humans at naturalness 0.9."""
@@ -113,7 +121,7 @@ def test_a_single_seed_never_passes(rigid, single_run):
 
 
 BAD = {
-    "no limit": ((), "name a limit: --max-worst, --max-auc or --baseline"),
+    "no limit": ((), "name a limit: --max-worst, --max-auc-natural, --max-auc or --baseline"),
     "level": (("--max-worst", "1", "--at-naturalness", "2"), "--at-naturalness is 2.0, but must"),
 }
 

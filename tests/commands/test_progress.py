@@ -10,7 +10,7 @@ from rich.progress import TaskID
 
 from rigid.commands import progress
 from rigid.commands.pace import Pace
-from rigid.commands.progress import ShareColumn, TerminalListener, TimeColumn
+from rigid.commands.progress import ShareColumn, TerminalListener, TimeColumn, counted
 from rigid.compute.listening import Workload
 
 WORK = Workload(
@@ -48,6 +48,20 @@ def test_the_listener_tells_an_estimate_first_and_prints_nothing_on_standard_out
     assert out == ""
     assert "2,400 training steps, of which 20 % are done; about 2 min" in err
     assert "[done]" in err
+
+
+def test_what_follows_with_a_bar_of_its_own_is_announced(capsys):
+    with TerminalListener("toy", then="report") as listener:
+        listener.begin(WORK)
+        listener.advance(300)
+    err = capsys.readouterr().err
+    assert "about 2 min, then the report\n" in err
+    assert "toy: 30 % · 2 min left + report\n" in err
+
+
+def test_a_bar_counts_what_is_taken(capsys):
+    assert list(counted("toys", [1, 2])) == [1, 2]
+    assert "toys" in capsys.readouterr().err
 
 
 def test_a_bar_that_stands_still_says_that_the_steps_are_compiled():

@@ -8,9 +8,14 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from rigid.cli import run
 from rigid.commands import progress
 from rigid.commands.training_progress import show_progress, show_stages
-from rigid.learning.cooptimisation import Progress
+from rigid.learning.cooptimisation import CoOptimisationSettings, Progress
+from rigid.learning.personalisation import PersonalisationSettings
+from rigid.robots.gleave import GleaveSettings
+from rigid.robots.palm import PalmRecipe
+from rigid.robots.robust_gt import RobustSettings
 from tests.toys import ToyReach
 
 
@@ -170,6 +175,27 @@ def test_a_log_of_a_training_tells_the_time_left(capsys):
         for iteration in range(10):
             report(Progress(iteration, 1.0, 0.5, 0.1))
     assert "co-optimising 10/20 · return 1.0 · success 0.50 · 0 s left\n" in capsys.readouterr().err
+
+
+LENGTHS = {
+    ("co-optimize", "--iterations"): CoOptimisationSettings().iterations,
+    ("vanilla", "--iterations"): PersonalisationSettings().iterations,
+    ("gleave", "--iterations"): GleaveSettings().personalisation.iterations,
+    ("gleave", "--population-iterations"): GleaveSettings().population.iterations,
+    ("palm", "--iterations"): PalmRecipe().palm.personalisation.iterations,
+    ("palm", "--diverse-iterations"): PalmRecipe().diverse.iterations,
+    ("robust-gt", "--iterations"): RobustSettings().training.iterations,
+}
+
+
+@pytest.mark.parametrize(("named", "iterations"), LENGTHS.items(), ids=map(" ".join, LENGTHS))
+def test_the_help_says_how_long_a_recipe_is(named, iterations, capsys):
+    recipe, option = named
+    with pytest.raises(SystemExit):
+        run(["train", recipe, "--help"])
+    said = " ".join(capsys.readouterr().out.replace("│", "").split())
+    text = said.partition(f"{option} INT ")[2].partition(" (default: ")[0]
+    assert text.endswith(f"by default {iterations}.")
 
 
 @pytest.mark.parametrize("what", ["co-optimising", "vanilla", "diverse pair", "round-1"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rigid.commands.wrapping import NO_BREAK, columns, wrapped
+from rigid.commands.wrapping import NO_BREAK, columns, show, wrapped
 
 
 def test_no_line_is_wider_but_one_of_a_single_word():
@@ -38,3 +38,12 @@ def test_where_nothing_says_how_wide_it_is_there_are_80_columns(monkeypatch, cap
     if told is not None:
         monkeypatch.setenv("COLUMNS", told)
     assert columns() == columns(of_errors=True) == width
+
+
+def test_a_result_is_one_line_in_a_pipe_and_wrapped_for_a_terminal(capsys, monkeypatch):
+    text = "word " * 30 + "end"
+    show(text)
+    assert capsys.readouterr().out == f"{text}\n"
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    show(text)
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= 80

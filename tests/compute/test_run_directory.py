@@ -109,7 +109,10 @@ def test_a_result_that_lacks_a_seed_is_taken_away_with_its_report(tmp_path):
 def test_other_settings_are_named_and_nothing_is_overwritten(tmp_path):
     settings = begin(tmp_path).directory.settings
     before = settings.read_bytes()
-    with pytest.raises(UserError, match=r"preset\.iterations is 20 there and 40 here; choose anot"):
+    with pytest.raises(
+        UserError,
+        match=r"preset\.iterations is 20 there and 40 here \(preset or budget\); choose anot",
+    ):
         begin(tmp_path, seeds=(7,), preset={"iterations": 40, "name": "tiny"})
     assert settings.read_bytes() == before
 

@@ -99,6 +99,10 @@ UNLIKE = {
     ),
     "task": ({}, {"task": {"name": "feed"}}, "task.name is reach for the one and feed for the"),
     "budget": ({}, {"preset": {"iterations": 9}}, "preset.iterations is 40 for the one and 9 for"),
+    "preset": (
+        {"preset": "demo"}, {"preset": {"iterations": 9}},
+        r"preset.iterations is 40 for the one and 9 for the other \(presets None and demo\)",
+    ),
     "measure": ({}, {"measure": "mmd"}, "measure is lsgan for the one and mmd for the other"),
     "lambdas": ({}, {"lambdas": [1.0]}, r"their λ are None and \[1.0\]; null is a search"),
 }  # fmt: skip

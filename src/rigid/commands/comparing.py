@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -17,7 +17,6 @@ from rigid.commands.parsing import at_least
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
-    from rigid.compute.unseen import Pair
     from rigid.frontier.standings import Measured
     from rigid.frontier.successes import Played
 
@@ -125,18 +124,14 @@ class CompareCommand:
 
     def _unseen(self, methods: Mapping[str, Sequence[Measured]]) -> list[Played]:
         """What robots achieve with `--humans`."""
-        from rich.console import Console
-        from rich.progress import track
-
+        from rigid.commands.progress import counted
         from rigid.compute.unseen import play_unseen
 
-        console = Console(stderr=True)
-
-        def watched(pairs: Sequence[Pair]) -> Iterable[Pair]:
-            return track(pairs, description="unseen humans", console=console, transient=True)
-
         everyone = [run for measured in methods.values() for run in measured]
-        return play_unseen(everyone, self.humans, episodes=self.episodes, track=watched)
+        return play_unseen(
+            everyone, self.humans, episodes=self.episodes,
+            track=lambda pairs: counted("unseen humans", pairs),
+        )  # fmt: skip
 
     def _check_options(self) -> None:
         """Refuses what does not go together."""

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from rigid.frontier.standings import Standing
     from rigid.frontier.successes import Success
 
-_GAP = 2
+_GAP, _LEAST_GAP = 2, 1
+"""Columns between two cells, and where there is no room for that."""
 _NAME = 11
 """Columns that a longer name has at least, before the table becomes narrower or parts."""
 
@@ -90,9 +91,8 @@ def _successes(standings: Sequence[Standing], *, asked: bool) -> list[_Column]:
     def column(title: str, of: Callable[[Standing], Success | None]) -> _Column:
         found = [of(standing) for standing in standings]
         ends = [None if one is None else one.interval for one in found]
-        return _Column(
-            title, [f"{_share(one)}{_ends(e)}" for one, e in zip(found, ends, strict=True)]
-        )
+        shown = [f"{_share(one)}{_ends(e, '.2f')}" for one, e in zip(found, ends, strict=True)]
+        return _Column(title, shown)
 
     return [
         column("own human", lambda standing: standing.success),
@@ -107,38 +107,41 @@ def _block(
 ) -> Iterator[str]:
     """A table, or several below each other that have the same rows, of at most `width` columns."""
     longest = max(map(len, (head, *names)))
-    room = width - min(longest, _NAME)
-    if _taken(columns) > room:
+    room, gap = width - min(longest, _NAME), _GAP
+    if _taken(columns, gap) > room:
         columns = [column.narrow for column in columns]
-    for number, part in enumerate(_parts(columns, room)):
+    if _taken(columns, gap) > room:
+        gap = _LEAST_GAP
+    for number, part in enumerate(_parts(columns, room, gap)):
         if number > 0:
             yield ""
-        yield from _drawn(head, names, part, min(longest, max(width - _taken(part), _NAME)))
+        name_width = min(longest, max(width - _taken(part, gap), _NAME))
+        yield from _drawn(head, names, part, name_width, gap)
 
 
-def _parts(columns: Sequence[_Column], room: int) -> list[Sequence[_Column]]:
+def _parts(columns: Sequence[_Column], room: int, gap: int) -> list[Sequence[_Column]]:
     """As few parts as have room, of about equally many columns."""
     for count in range(1, len(columns)):
         size = -(-len(columns) // count)
         parts = [columns[first : first + size] for first in range(0, len(columns), size)]
-        if all(_taken(part) <= room for part in parts):
+        if all(_taken(part, gap) <= room for part in parts):
             return parts
     return [[column] for column in columns]
 
 
-def _taken(columns: Sequence[_Column]) -> int:
-    return sum(_GAP + column.width for column in columns)
+def _taken(columns: Sequence[_Column], gap: int) -> int:
+    return sum(gap + column.width for column in columns)
 
 
 def _drawn(
-    head: str, names: Sequence[str], columns: Sequence[_Column], name_width: int
+    head: str, names: Sequence[str], columns: Sequence[_Column], name_width: int, gap: int
 ) -> Iterator[str]:
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
     height = max(column.title.count("\n") for column in columns)
-    drawn = Table(box=None, padding=(0, 0, 0, _GAP), pad_edge=False)
+    drawn = Table(box=None, padding=(0, 0, 0, gap), pad_edge=False)
     drawn.add_column(Text("\n" * height + head), width=name_width, overflow="fold")
     for column in columns:
         title = "\n" * (height - column.title.count("\n")) + column.title
@@ -146,7 +149,8 @@ def _drawn(
     folder = _Folder(name_width)
     for name, *cells in zip(names, *(column.cells for column in columns), strict=True):
         drawn.add_row(Text("\n".join(folder.wrap(name))), *map(Text, cells))
-    console = Console(file=io.StringIO(), width=name_width + _taken(columns), color_system=None)
+    width = name_width + _taken(columns, gap)
+    console = Console(file=io.StringIO(), width=width, color_system=None)
     with console.capture() as captured:
         console.print(drawn)
     return (line.rstrip() for line in captured.get().splitlines())
@@ -157,12 +161,12 @@ def _number(found: Estimate) -> str:
 
 
 def _difference(found: Estimate) -> str:
-    return f"{found.mean:+.3f}{_ends(found.interval, '+.2f')}"
+    return f"{found.mean:+.3f}{_ends(found.interval, '+.3f')}"
 
 
 def _share(found: Success | None) -> str:
     return "–" if found is None else f"{found.mean:.2f}"
 
 
-def _ends(interval: Interval | None, form: str = ".2f") -> str:
+def _ends(interval: Interval | None, form: str = ".3f") -> str:
     return "" if interval is None else f" [{interval.low:{form}}, {interval.high:{form}}]"

@@ -16,6 +16,7 @@ from rigid.commands.naming import OpeningOptions
 from rigid.commands.onnx_exporting import write_onnx
 from rigid.commands.parsing import at_least
 from rigid.commands.serve_exporting import write_serve
+from rigid.commands.wrapping import show
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -154,7 +155,7 @@ def _film(options: ExportCommand, path: Path) -> None:
     scene, shown = _episode(options)
     settings = _settings(options)
     length = _write_film(path, scene, shown, settings, side_by_side=options.side_by_side)
-    print(f"{line_of(shown)}, {length:.1f} s: {path}")
+    show(f"{line_of(shown)}, {length:.1f} s: {path}")
 
 
 def _episode(options: ExportCommand) -> tuple[Mapping[str, Any], Shown]:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 _shown_as = tyro.conf.arg
 GATE_FAILED = 3
+_MEAN = "mean over [0.8, 1]"
 _WHY_WIDER = (
     "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since t alone "
     "promises too much where seeds are skewed towards 0"
@@ -47,8 +48,11 @@ class GateCommand:
     """From which naturalness on --max-worst and --baseline look."""
     max_auc: Annotated[float | None, _shown_as(metavar="AUC")] = None
     """Largest allowed area under the frontier."""
+    max_auc_natural: Annotated[float | None, _shown_as(metavar="Y")] = None
+    """Largest allowed mean height of the frontier over naturalness [0.8, 1]."""
     baseline: Annotated[Path | None, _shown_as(metavar="DIR")] = None
-    """A measurement that this one may not be worse than, paired by search seed."""
+    """A measurement that this one may not be worse than, paired by search seed: neither its worst
+    at --at-naturalness nor its mean over [0.8, 1]."""
     margin: float = 0.0
     """By how much it may be worse than the baseline."""
 
@@ -58,7 +62,7 @@ class GateCommand:
             raise UserError(f"--at-naturalness is {self.at_naturalness}, but must lie in [0, 1]")
         verdicts = [*_absolute(self), *_against_baseline(self)]
         if not verdicts:
-            raise UserError("name a limit: --max-worst, --max-auc or --baseline")
+            raise UserError("name a limit: --max-worst, --max-auc-natural, --max-auc or --baseline")
         width = columns()
         for fine, text in verdicts:
             sign = "ok    " if fine else "FAILED"
@@ -70,7 +74,8 @@ class GateCommand:
 
 def _notes(options: GateCommand) -> Iterator[str]:
     """What a reader of the verdicts has to know, a sentence each."""
-    if (options.max_worst, options.max_auc) != (None, None):
+    limits = options.max_worst, options.max_auc_natural, options.max_auc
+    if any(limit is not None for limit in limits):
         yield _WHY_WIDER
     if (options.max_worst, options.baseline) == (None, None):
         return
@@ -87,6 +92,7 @@ def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
     level = f"worst at naturalness ≥ {options.at_naturalness:g}"
     for limit, key, label in (
         (options.max_worst, "worst_at", level),
+        (options.max_auc_natural, "auc_natural", _MEAN),
         (options.max_auc, "auc", "AUC"),
     ):
         if limit is not None:
@@ -104,7 +110,7 @@ def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
     against = compare(frontiers, identities, level=options.at_naturalness)[1].against
     assert against is not None
     level = f"worst at ≥ {options.at_naturalness:g}"
-    for key, label in (("worst_at", level), ("auc_natural", "mean over [0.8, 1]")):
+    for key, label in (("worst_at", level), ("auc_natural", _MEAN)):
         found = against[key]
         high = None if found.interval is None else found.interval.high
         yield _within(f"{label} minus baseline", found.mean, high, "paired t", options.margin)

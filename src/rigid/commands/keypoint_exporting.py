@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rigid.commands.parsing import printable
+from rigid.commands.wrapping import show
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def draw_keypoints(directory: Path, task: str | None, path: Path) -> None:
     with writing_to(path, "--keypoints"):
         write_atomically(path, data)
     for shown in episodes:
-        print(line_of(shown))
+        show(line_of(shown))
     print(path)
 
 

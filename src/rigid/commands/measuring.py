@@ -129,7 +129,8 @@ def _measure(options: FrontierCommand) -> int:
                 "choose --preset and --seeds"
             )
         preset = _fitted(preset, options, task, budget, lambdas)
-    with goes_on(options.out), TerminalListener(f"{options.robot} · {preset.name}") as listener:
+    what = f"{options.robot} · {preset.name}"
+    with goes_on(options.out), TerminalListener(what, then="report") as listener:
         frontier = measure(
             task, options.robot, out=options.out, preset=preset, seeds=preset.seeds,
             lambdas=lambdas, memory=options.memory, search_measure=options.search_measure,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -11,6 +10,7 @@ import tyro
 
 from rigid.commands.helping import several
 from rigid.commands.parsing import at_least, printable
+from rigid.commands.wrapping import show, tell
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -57,9 +57,7 @@ class PairsCommand:
 
     def run(self) -> int:
         """Picks, writes and prints."""
-        from rich.console import Console
-        from rich.progress import track
-
+        from rigid.commands.progress import counted
         from rigid.compute.pairing import PairOrder, pick_pairs
         from rigid.data.pair_file import save_pairs
         from rigid.files import make_room, writing_to
@@ -69,25 +67,19 @@ class PairsCommand:
         if not self.directories:
             raise UserError("pairs needs at least one run directory: rigid pairs RUN --kind danger")
         make_room(self.out)
-        console = Console(stderr=True)
-
-        def watched(places: list[tuple[int, int]]) -> Iterable[tuple[int, int]]:
-            return track(
-                places, description="pairs", console=console, disable=not console.is_terminal
-            )
-
         order = PairOrder(
             runs=self.directories, recordings=self.recordings, kind=self.kind, count=self.count,
             seed=self.seed, reuse=self.reuse, any_start=self.any_start, robot=self.robot,
         )  # fmt: skip
         found = pick_pairs(
-            order, self.out, track=watched,
-            say=lambda text: console.print(text, highlight=False, markup=False, soft_wrap=True),
+            order, self.out, say=tell,
+            track=lambda places: counted("choosing moments", places),
         )  # fmt: skip
         with writing_to(self.out):
             save_pairs(self.out, found)
         print(table(found))
-        print(f"{len(found.pairs)} {found.kind} pairs of {found.eligible} eligible: {self.out}")
+        count = f"{len(found.pairs)} {found.kind} pairs of {found.eligible} eligible"
+        show(f"{count}: {self.out}")
         return 0
 
 

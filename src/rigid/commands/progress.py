@@ -5,11 +5,11 @@ Everything goes to standard error, so that `--json` leaves standard output to th
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from threading import Timer
 from types import TracebackType
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, TypeVar, final
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rigid.compute.listening import Workload
     from rigid.tasks.protocol import Task
 
+_Item = TypeVar("_Item")
 PATIENCE = 2.0
 """Seconds after which people want to see that something moves. Ours."""
 _MEMORY = 120.0
@@ -36,14 +37,16 @@ class TimeColumn(ProgressColumn):
 
     max_refresh = 0.5
 
-    def __init__(self, after: str) -> None:
+    def __init__(self, after: str, then: str = "") -> None:
         """A column of bars; of each that has a field `pace`, that one knows the time left.
 
         Args:
             after: What is done once a bar is full, and goes on while its clock does.
+            then: What follows with a bar of its own.
         """
         super().__init__(Column(no_wrap=True))  # The bar gives way on a narrow terminal.
         self.after = after
+        self._then = f" + {then}" if then else ""
 
     def render(self, task: Bar) -> Text:
         """The times of one bar."""
@@ -65,7 +68,7 @@ class TimeColumn(ProgressColumn):
         if left is None:
             return ""
         compiling = " · compiling" if pace is not None and pace.compiling else ""
-        return f"{compiling} · {spoken(left)} left"
+        return f"{compiling} · {spoken(left)} left{self._then}"
 
 
 @final
@@ -126,11 +129,17 @@ class TerminalListener:
     else holds one and passes on what it wants shown.
     """
 
-    def __init__(self, what: str) -> None:
-        self._what = what
+    def __init__(self, what: str, then: str = "") -> None:
+        """Says nothing yet.
+
+        Args:
+            what: Is done.
+            then: What follows with a bar of its own, and is not in the time left.
+        """
+        self._what, self._then = what, f", then the {then}" if then else ""
         self._console = Console(stderr=True)
         self._pace = Pace()
-        self._times = TimeColumn("summing up")
+        self._times = TimeColumn("summing up", then)
         self._bar = bar_of(self._console, ShareColumn(), self._times)
         self._task = self._bar.add_task(what, total=None, pace=self._pace)
         self._late = drawn_late(self._bar)
@@ -156,7 +165,8 @@ class TerminalListener:
         """Work starts, or goes on."""
         share = 100 * work.done / work.steps
         done = f", of which {share:.0f} % are done" if work.done else ""
-        self.say(f"{work.training_steps:,} training steps{done}; about {spoken(work.seconds)}")
+        about = f"about {spoken(work.seconds)}{self._then}"
+        self.say(f"{work.training_steps:,} training steps{done}; {about}")
         self.expect(work.steps)
         self.resume(work)
 
@@ -188,6 +198,20 @@ class TerminalListener:
         """A line for the user."""
         whole = not self._console.is_terminal  # A log is searched.
         self._console.print(text, highlight=False, markup=False, soft_wrap=whole)
+
+
+def counted(what: str, items: Collection[_Item]) -> Iterator[_Item]:
+    """The items, with a bar that advances as they are taken.
+
+    Args:
+        what: Is done with them.
+        items: Of which each takes about as long.
+    """
+    with TerminalListener(what) as listener:
+        listener.expect(len(items))
+        for item in items:
+            yield item
+            listener.advance(1)
 
 
 @contextmanager

@@ -25,7 +25,7 @@ class PalmCommand(RobotOptions):
     """
 
     diverse_iterations: Annotated[int | None, tyro.conf.arg(metavar="INT")] = None
-    """Iterations of 19,200 steps of the diverse pair; by default the recipe's."""
+    """Iterations of 19,200 steps of the diverse pair; by default 160."""
 
     def run(self) -> int:
         """Trains the diverse pair and the robot."""

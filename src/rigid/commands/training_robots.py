@@ -30,7 +30,7 @@ class CoOptimizeCommand(TaskOptions):
     """Everything random comes from it."""
     iterations: Annotated[int | None, _count] = None
     """Iterations of 192 episodes, or of 19,200 steps where episodes are longer than 100; by default
-    the recipe's."""
+    160."""
 
     def run(self) -> int:
         """Trains the pair."""
@@ -61,7 +61,7 @@ class RobotOptions(TaskOptions):
     seed: int = 0
     """Everything random comes from it."""
     iterations: Annotated[int | None, _count] = None
-    """Iterations of 9,600 steps of the robot's training; by default the recipe's."""
+    """Iterations of 9,600 steps of the robot's training; by default 100."""
     episodes: int = 40
     """Canonical episodes to record with the robot."""
 
@@ -122,7 +122,7 @@ class GleaveCommand(RobotOptions):
     """
 
     population_iterations: Annotated[int | None, _count] = None
-    """Iterations of 19,200 steps of the co-optimisation; by default the recipe's."""
+    """Iterations of 19,200 steps of the co-optimisation; by default 160."""
 
     def run(self) -> int:
         """Trains population and robot."""

@@ -56,7 +56,7 @@ class RobustCommand(MeasuredTaskOptions):
     seed: int = 0
     """Everything random comes from it."""
     iterations: Annotated[int | None, tyro.conf.arg(metavar="INT")] = None
-    """Iterations of 19,200 steps of each training; by default the recipe's."""
+    """Iterations of 19,200 steps of each training; by default 60."""
     episodes: int = 40
     """Canonical episodes to record with each robot."""
 

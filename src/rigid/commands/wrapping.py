@@ -60,6 +60,11 @@ def wrapped(text: str, width: int, *, hanging: str = "  ") -> str:
     return "\n".join(lines).replace(NO_BREAK, " ")
 
 
+def show(text: str) -> None:
+    """Prints a result: wrapped for a terminal, in a pipe one line, as programs read it."""
+    print(wrapped(text, columns()) if sys.stdout.isatty() else text)
+
+
 def tell(text: str) -> None:
     """Says something on standard error: wrapped for a terminal, in a log as it is.
 

@@ -188,9 +188,11 @@ def check_same(path: Path, identity: Mapping[str, Any]) -> None:
     different = first_difference(dict(stored["identity"]), dict(identity))
     if different is not None:
         name, there, here = different
+        origin = " (preset or budget)" if name.startswith(("adversary.", "preset.")) else ""
         raise UserError(
             f"{path} holds a measurement with other settings: {name} is {_short(there)} there and "
-            f"{_short(here)} here; choose another directory with --out, or the same settings"
+            f"{_short(here)} here{origin}; choose another directory with --out, or the same "
+            "settings"
         )
 
 

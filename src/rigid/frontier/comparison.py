@@ -167,9 +167,11 @@ def check_comparable(one: _Measured, other: _Measured) -> None:
     different = first_difference(*shared)
     if different is not None:
         name, here, there = different
+        presets = [frontier.data.get("preset") for frontier in (a, b)]
+        said = "" if presets[0] == presets[1] else f" (presets {presets[0]} and {presets[1]})"
         raise UserError(
-            f"{both}: {name} is {here} for the one and {there} for the other; measure both with "
-            "the same settings"
+            f"{both}: {name} is {here} for the one and {there} for the other{said}; measure both "
+            "with the same settings"
         )
     lambdas = [identity.get("lambdas") for identity in (mine, theirs)]
     if lambdas[0] != lambdas[1]:
