@@ -177,6 +177,22 @@ def test_a_log_of_a_training_tells_the_time_left(capsys):
     assert "co-optimising 10/20 · return 1.0 · success 0.50 · 0 s left\n" in capsys.readouterr().err
 
 
+class Heavy(ToyReach):
+    """Nobody should try out how fast its worlds are."""
+
+    most_worlds = 4
+
+    def make_world(self, batch, *, threads=0):
+        raise AssertionError(f"{batch} worlds on {threads} threads")
+
+
+def test_a_task_of_heavy_worlds_is_not_tried_out(capsys):
+    with show_progress("vanilla", 3) as report:
+        report.begin(Heavy(), 4, done=0)
+        assert report._times.rest(report._bar.tasks[0]) == ""
+    assert "vanilla: 3 iterations of 40 steps\n" in capsys.readouterr().err
+
+
 LENGTHS = {
     ("co-optimize", "--iterations"): CoOptimisationSettings().iterations,
     ("vanilla", "--iterations"): PersonalisationSettings().iterations,

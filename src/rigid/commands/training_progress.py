@@ -40,22 +40,28 @@ class Shown:
             self._bar.start_task(self._task)
 
     def begin(self, task: Task, episodes: int, done: int) -> None:
-        """Says how long it will take, to judge by the task's speed."""
-        from rigid.compute.budget import STARTING_SECONDS, training_speed
-
+        """Says how much there is to do, and how long it will take if that is easily found out."""
         if self.before is not None:
             self.before.end()
         self.start()
         self._per_iteration = episodes * task.horizon
+        self._go_to(done)
+        kept = f", of which {done} are done" if done else ""
+        seconds = self._expected(task)
+        about = "" if seconds is None else f"; about {spoken(seconds)}"
+        work = f"{self._iterations} iterations of {self._per_iteration:,} steps"
+        self._say(f"{self._what}: {work}{kept}{about}")
+
+    def _expected(self, task: Task) -> float | None:
+        """How long the iterations that are left take, to judge by the task's speed [s]."""
+        from rigid.compute.budget import STARTING_SECONDS, training_speed
+        from rigid.tasks.protocol import LimitsWorlds
+
+        if isinstance(task, LimitsWorlds):  # Trying it out might take minutes.
+            return None
         speed = training_speed(task) / self._per_iteration
         self._pace.expect(speed, STARTING_SECONDS)
-        self._go_to(done)
-        seconds = STARTING_SECONDS + (self._iterations - done) / speed
-        kept = f", of which {done} are done" if done else ""
-        self._say(
-            f"{self._what}: {self._iterations} iterations of {self._per_iteration:,} steps{kept}; "
-            f"about {spoken(seconds)}"
-        )
+        return STARTING_SECONDS + (self._iterations - self._done) / speed
 
     def watch(self, task: Task) -> Task:
         """The same task, whose steps move the bar within iterations."""
