@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 _shown_as = tyro.conf.arg
 GATE_FAILED = 3
-_MEAN = "mean over [0.8, 1]"
 _WHY_WIDER = (
     "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since t alone "
     "promises too much where seeds are skewed towards 0"
@@ -87,12 +86,13 @@ def _notes(options: GateCommand) -> Iterator[str]:
 
 def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
     from rigid.frontier.comparison import numbers_of
+    from rigid.frontier.standings import TITLES
 
     numbers = numbers_of(load_measured(options.directory)[0], options.at_naturalness)
     level = f"worst at naturalness ≥ {options.at_naturalness:g}"
     for limit, key, label in (
         (options.max_worst, "worst_at", level),
-        (options.max_auc_natural, "auc_natural", _MEAN),
+        (options.max_auc_natural, "auc_natural", TITLES["auc_natural"]),
         (options.max_auc, "auc", "AUC"),
     ):
         if limit is not None:
@@ -101,6 +101,7 @@ def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
 
 def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
     from rigid.frontier.comparison import compare
+    from rigid.frontier.standings import TITLES
 
     if options.baseline is None:
         return
@@ -110,7 +111,7 @@ def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
     against = compare(frontiers, identities, level=options.at_naturalness)[1].against
     assert against is not None
     level = f"worst at ≥ {options.at_naturalness:g}"
-    for key, label in (("worst_at", level), ("auc_natural", _MEAN)):
+    for key, label in (("worst_at", level), ("auc_natural", TITLES["auc_natural"])):
         found = against[key]
         high = None if found.interval is None else found.interval.high
         yield _within(f"{label} minus baseline", found.mean, high, "paired t", options.margin)

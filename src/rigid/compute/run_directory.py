@@ -176,6 +176,10 @@ def open_run(
     return OpenRun(run, tuple(everyone), version_warnings(stored["provenance"]["versions"]))
 
 
+_OF_PRESETS = "preset.", "adversary.iterations", "adversary.episodes", "adversary.sharing"
+"""Entries of an identity that nobody names one by one."""
+
+
 def check_same(path: Path, identity: Mapping[str, Any]) -> None:
     """Refuses a directory that holds another measurement; of a part of the identity, that part.
 
@@ -188,7 +192,7 @@ def check_same(path: Path, identity: Mapping[str, Any]) -> None:
     different = first_difference(dict(stored["identity"]), dict(identity))
     if different is not None:
         name, there, here = different
-        origin = " (preset or budget)" if name.startswith(("adversary.", "preset.")) else ""
+        origin = " (preset or budget)" if name.startswith(_OF_PRESETS) else ""
         raise UserError(
             f"{path} holds a measurement with other settings: {name} is {_short(there)} there and "
             f"{_short(here)} here{origin}; choose another directory with --out, or the same "
