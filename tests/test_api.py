@@ -33,6 +33,24 @@ def test_a_task_may_be_named(base, small_run, monkeypatch):
     assert again.data == small_run.data
 
 
+def test_a_terminal_sees_a_bar_and_a_log_nothing(base, capsys, monkeypatch):
+    monkeypatch.syspath_prepend(install_toy(base))
+    pair = base / "pair"
+
+    def measured(place):
+        rigid.measure(
+            "toy-reach", str(pair / "robot"), out=place, preset=TINY, seeds=[0], lambdas=[1.0],
+            human=str(pair / "human"),
+        )  # fmt: skip
+        return capsys.readouterr()
+
+    assert measured(base / "silent") == ("", "")
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    out, err = measured(base / "seen")
+    assert out == ""
+    assert "training steps; about" in err
+
+
 def test_a_result_offers_its_headline_as_attributes(small_run):
     data = json.loads((small_run.directory / "frontier.json").read_text())
     assert small_run.points == data["points"]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
 
 from rigid.compute.executors import Executor, find_executor
@@ -60,7 +62,8 @@ def measure(
             this machine or else one that is started; `ray:HOST:PORT`, on a Ray cluster; or an
             `Executor`. The numbers are the same.
         opening: How files of other libraries are opened; the default trusts none.
-        listener: Told of progress.
+        listener: Told of progress; by default a bar on standard error, if that is a terminal.
+            `rigid.compute.listening.Silence()` keeps quiet.
 
     Raises:
         UserError: Bad input; the message names it and the cure, and nothing was overwritten.
@@ -75,14 +78,20 @@ def measure(
         opening,
         find_return_range(return_range, played),
     )
-    return measure_robot(
-        subject,
-        find_preset(preset) if isinstance(preset, str) else preset,
-        out=Path(out),
-        seeds=seeds,
-        lambdas=lambdas,
-        memory=memory,
-        search_measure=search_measure,
-        executor=find_executor(executor) if isinstance(executor, str) else executor,
-        listener=listener,
-    )
+    chosen = find_preset(preset) if isinstance(preset, str) else preset
+    with ExitStack() as stack:
+        if listener is None and sys.stderr.isatty():
+            from rigid.commands.progress import TerminalListener
+
+            listener = stack.enter_context(TerminalListener(f"{robot} · {chosen.name}"))
+        return measure_robot(
+            subject,
+            chosen,
+            out=Path(out),
+            seeds=seeds,
+            lambdas=lambdas,
+            memory=memory,
+            search_measure=search_measure,
+            executor=find_executor(executor) if isinstance(executor, str) else executor,
+            listener=listener,
+        )

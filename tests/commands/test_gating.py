@@ -83,7 +83,15 @@ def test_seeds_skewed_towards_0_that_t_would_let_pass_fail(rigid, with_worst):
         "        (t of the logit; t: 0.096)",
         "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since",
         "  t alone promises too much where seeds are skewed towards 0",
+        "more search seeds narrow a bound: `rigid frontier` with the same --out and more",
+        "  --seeds adds them",
     ]
+
+
+def test_more_seeds_are_advised_only_where_they_could_open_the_gate(rigid, with_worst):
+    directory = with_worst(*SYMMETRIC)
+    assert "more search seeds" not in rigid("gate", directory, "--max-worst", "0.5")[1]
+    assert "more search seeds" not in rigid("gate", directory, "--max-worst", "0.99")[1]
 
 
 def test_symmetric_seeds_in_the_middle_are_held_by_t(rigid, with_worst):

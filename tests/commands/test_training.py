@@ -157,7 +157,7 @@ def test_a_training_says_how_long_it_will_take_before_its_first_iteration_is_don
         assert "compiling" in report._times.rest(report._bar.tasks[0])
         report(Progress(0, 0.0, 0.5, 0.1))
         assert "compiling" not in report._times.rest(report._bar.tasks[0])
-    assert "co-optimising: 3 iterations of 40 steps; about 8 s" in capsys.readouterr().err
+    assert "co-optimising: 3 iterations of 40 steps; about 4 s" in capsys.readouterr().err
 
 
 def test_what_an_earlier_call_trained_is_shown_at_once_and_says_nothing_of_the_speed(capsys):

@@ -134,7 +134,7 @@ def test_a_finished_measurement_is_left_untouched(single_copy, measure):
 
 def test_other_settings_are_refused_with_the_first_difference(single_copy, measure):
     before = files_of(single_copy)
-    message = r"other settings: preset\.scoring_episodes is 6 there and 7 here; choose another"
+    message = r"other settings: preset\.scoring_episodes is 6 there and 7 here \(preset or budget"
     with pytest.raises(UserError, match=message):
         measure(single_copy, seeds=[0], preset=replace(TINY, scoring_episodes=7))
     assert files_of(single_copy) == before

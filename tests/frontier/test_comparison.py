@@ -97,7 +97,7 @@ UNLIKE = {
         {"return_range": [-2.0, 1.0]}, {},
         r"their ranges of adversarialness are \[-1.0, 1.0\] and \[-2.0, 1.0\]; measure both with",
     ),
-    "task": ({}, {"task": {"name": "feed"}}, "task.name is reach for the one and feed for the"),
+    "task": ({}, {"task": {"name": "feed"}}, "one was measured in task reach, the other in feed$"),
     "budget": ({}, {"preset": {"iterations": 9}}, "preset.iterations is 40 for the one and 9 for"),
     "preset": (
         {"preset": "demo"}, {"preset": {"iterations": 9}},

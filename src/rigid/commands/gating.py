@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import tyro
 
@@ -22,6 +22,10 @@ GATE_FAILED = 3
 _WHY_WIDER = (
     "upper bounds: 95 % over search seeds; of t and t of the logit the larger, since t alone "
     "promises too much where seeds are skewed towards 0"
+)
+_MORE_SEEDS = (
+    "more search seeds narrow a bound: `rigid frontier` with the same --out and more --seeds adds "
+    "them"
 )
 
 
@@ -63,19 +67,28 @@ class GateCommand:
         if not verdicts:
             raise UserError("name a limit: --max-worst, --max-auc-natural, --max-auc or --baseline")
         width = columns()
-        for fine, text in verdicts:
-            sign = "ok    " if fine else "FAILED"
-            print(wrapped(f"{sign}  {text}", width, hanging=" " * len("FAILED  ")))
-        for note in _notes(self):
+        for one in verdicts:
+            sign = "ok    " if one.fine else "FAILED"
+            print(wrapped(f"{sign}  {one.text}", width, hanging=" " * len("FAILED  ")))
+        for note in _notes(self, verdicts):
             print(wrapped(note, width))
-        return 0 if all(fine for fine, _ in verdicts) else GATE_FAILED
+        return 0 if all(one.fine for one in verdicts) else GATE_FAILED
 
 
-def _notes(options: GateCommand) -> Iterator[str]:
+class _Verdict(NamedTuple):
+    fine: bool
+    text: str
+    undecided: bool = False
+    """Whether the mean keeps the limit that its bound does not."""
+
+
+def _notes(options: GateCommand, verdicts: Sequence[_Verdict]) -> Iterator[str]:
     """What a reader of the verdicts has to know, a sentence each."""
     limits = options.max_worst, options.max_auc_natural, options.max_auc
     if any(limit is not None for limit in limits):
         yield _WHY_WIDER
+    if any(one.undecided for one in verdicts):
+        yield _MORE_SEEDS
     if (options.max_worst, options.baseline) == (None, None):
         return
     for directory in filter(None, (options.directory, options.baseline)):
@@ -84,7 +97,7 @@ def _notes(options: GateCommand) -> Iterator[str]:
             yield f"{printable(str(directory))}: {lacking}"
 
 
-def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
+def _absolute(options: GateCommand) -> Iterator[_Verdict]:
     from rigid.frontier.comparison import numbers_of
     from rigid.frontier.standings import TITLES
 
@@ -99,7 +112,7 @@ def _absolute(options: GateCommand) -> Iterator[tuple[bool, str]]:
             yield _within(label, numbers[key].mean, *_bound(numbers[key]), limit)
 
 
-def _against_baseline(options: GateCommand) -> Iterator[tuple[bool, str]]:
+def _against_baseline(options: GateCommand) -> Iterator[_Verdict]:
     from rigid.frontier.comparison import compare
     from rigid.frontier.standings import TITLES
 
@@ -125,12 +138,11 @@ def _bound(number: Number) -> tuple[float | None, str]:
     return bound, "t" if bound <= interval.high else f"t of the logit; t: {interval.high:.3f}"
 
 
-def _within(
-    label: str, mean: float, bound: float | None, source: str, limit: float
-) -> tuple[bool, str]:
+def _within(label: str, mean: float, bound: float | None, source: str, limit: float) -> _Verdict:
     """Whether the upper bound keeps the limit; without one nothing is known."""
     if bound is None:
-        return False, f"{label}: {mean:.3f} from one seed has no upper bound; add --seeds"
+        text = f"{label}: {mean:.3f} from one seed has no upper bound; add --seeds"
+        return _Verdict(fine=False, text=text)
     held = source.replace(" ", NO_BREAK)
     text = f"{label}: {mean:.3f}, upper bound {bound:.3f}, limit {limit:g} ({held})"
-    return bound <= limit, text
+    return _Verdict(bound <= limit, text, undecided=mean <= limit < bound)

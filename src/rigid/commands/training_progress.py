@@ -54,12 +54,12 @@ class Shown:
 
     def _expected(self, task: Task) -> float | None:
         """How long the iterations that are left take, to judge by the task's speed [s]."""
-        from rigid.compute.budget import STARTING_SECONDS, training_speed
+        from rigid.compute.budget import ROBOT_LEARNING_SECONDS, STARTING_SECONDS, training_speed
         from rigid.tasks.protocol import LimitsWorlds
 
         if isinstance(task, LimitsWorlds):  # Trying it out might take minutes.
             return None
-        speed = training_speed(task) / self._per_iteration
+        speed = training_speed(task, ROBOT_LEARNING_SECONDS) / self._per_iteration
         self._pace.expect(speed, STARTING_SECONDS)
         return STARTING_SECONDS + (self._iterations - self._done) / speed
 

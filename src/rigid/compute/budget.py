@@ -20,8 +20,10 @@ time only (measured .9e-4 to 2.3e-4)."""
 _ON_ONE_CORE = 1.4
 """Time that stepping takes on one core, over that on all; for estimates of time only (measured 1.4
 to 1.7 on two: policies and what Python does are not divided among threads)."""
-STARTING_SECONDS = 8.0
-"""Compilation of a robot's training (measured 5-15 s)."""
+ROBOT_LEARNING_SECONDS = 7e-5
+"""As `LEARNING_SECONDS`, of robots, who have no discriminator (measured .4e-4 to .9e-4)."""
+STARTING_SECONDS = 4.0
+"""Compilation of a robot's training (measured 2-6 s)."""
 COMPILING_SECONDS = 35.0
 """Compilation of training and referees (measured 20-40 s), in resumed measurements too."""
 FIXED_SECONDS = 40.0
@@ -30,8 +32,13 @@ _LEAST_ITERATIONS = 20
 _PROBE_WORLDS, _PROBE_STEPS, _PROBE_SECONDS = 192, 20, 0.5
 
 
-def training_speed(task: Task) -> float:
-    """Expected training steps per second of one process, from half a second of stepping."""
+def training_speed(task: Task, learning: float = LEARNING_SECONDS) -> float:
+    """Expected training steps per second of one process, from half a second of stepping.
+
+    Args:
+        task: Any.
+        learning: Time that learning takes for each step [s].
+    """
     world = task.make_world(_PROBE_WORLDS)
     world.reset(np.arange(_PROBE_WORLDS))
     robot = np.zeros((_PROBE_WORLDS, task.robot.action_size))
@@ -40,18 +47,21 @@ def training_speed(task: Task) -> float:
     while steps < _PROBE_STEPS and seconds < _PROBE_SECONDS:
         world.step(robot, human)
         steps, seconds = steps + 1, time.perf_counter() - begun
-    return working_speed(_PROBE_WORLDS * steps / seconds)
+    return working_speed(_PROBE_WORLDS * steps / seconds, learning=learning)
 
 
-def working_speed(stepping: float, workers: int = 1) -> float:
+def working_speed(
+    stepping: float, workers: int = 1, *, learning: float = LEARNING_SECONDS
+) -> float:
     """Expected steps per second of training and scoring.
 
     Args:
         stepping: Steps per second without learning, of one process on all cores of this machine.
         workers: One process on all cores, or so many with a core each.
+        learning: Time that learning takes one process for each step [s].
     """
     slower = 1.0 if workers == 1 else _ON_ONE_CORE
-    return workers / (slower / stepping + LEARNING_SECONDS)
+    return workers / (slower / stepping + learning)
 
 
 def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: float) -> Preset:

@@ -89,8 +89,11 @@ def _score_group(
     group: Sequence[Adversary],
     advance: Callable[[int], None],
 ) -> tuple[list[Scored], list[Judged]]:
-    """What is measured of each adversary, and by which referees."""
-    left = scoring_steps(inputs, plan)
+    """What is measured of each adversary, and by which referees.
+
+    Half of the steps is told as they are played, half as referees are trained, which takes longer.
+    """
+    every = left = scoring_steps(inputs, plan)
 
     def tell(env_steps: int) -> None:
         nonlocal left
@@ -98,10 +101,13 @@ def _score_group(
         advance(env_steps)
 
     court = Court(
-        watched(inputs.task, tell), inputs.opponent, inputs.ruler, inputs.preset, inputs.settings,
-        inputs.threads,
+        watched(inputs.task, lambda played: tell(played // 2)),
+        inputs.opponent, inputs.ruler, inputs.preset, inputs.settings, inputs.threads,
     )  # fmt: skip
-    judged = judge(court, [adversary.learner.policy for adversary in group], plan.entropy)
+    judged = judge(
+        court, [adversary.learner.policy for adversary in group], plan.entropy,
+        each=lambda: tell(every // (2 * len(group))),
+    )  # fmt: skip
     scored = score(court, group, judged, plan.entropy)
     advance(left)
     return scored, judged

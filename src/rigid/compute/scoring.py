@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -65,8 +65,14 @@ Scored = tuple[dict[str, Any], dict[str, np.ndarray]]
 are stored of its episodes."""
 
 
-def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) -> list[Judged]:
-    """Trains the referees of each adversary on episodes of its own."""
+def judge(
+    court: Court,
+    policies: Sequence[GaussianParameters],
+    entropy: int,
+    *,
+    each: Callable[[], None] = lambda: None,
+) -> list[Judged]:
+    """Trains the referees of each adversary on episodes of its own; `each` is told of every one."""
     preset = court.preset
     rng = phase_rng(entropy, "referee")
     count = preset.referee_episodes + preset.validation_episodes
@@ -81,7 +87,9 @@ def judge(court: Court, policies: Sequence[GaussianParameters], entropy: int) ->
         own = seen_by_referee(episodes, _block(index, count))
         seen.append((own.part(parts[0]), own.part(parts[1])))
     ruler = court.ruler
-    panels = train_panels(ruler.folds, seen, ruler.settings, jax.random.key(entropy))
+    panels = train_panels(
+        ruler.folds, seen, ruler.settings, jax.random.key(entropy), each=each
+    )  # fmt: skip
     return [
         Judged(panel, naturalness_of(panel, validation)["naturalness"])
         for panel, (_, validation) in zip(panels, seen, strict=True)

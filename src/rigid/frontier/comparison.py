@@ -157,6 +157,9 @@ def check_comparable(one: _Measured, other: _Measured) -> None:
     """
     (left, a, mine), (right, b, theirs) = one, other
     both = f"{left} and {right} cannot be compared"
+    tasks = [identity.get("task", {}).get("name") for identity in (mine, theirs)]
+    if tasks[0] != tasks[1]:
+        raise UserError(f"{both}: one was measured in task {tasks[0]}, the other in {tasks[1]}")
     ranges = [list(frontier.data["return_range"]) for frontier in (a, b)]
     if ranges[0] != ranges[1]:
         raise UserError(

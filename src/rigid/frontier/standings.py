@@ -83,7 +83,7 @@ def notes_of(standings: Sequence[Standing]) -> list[str]:
             notes.append(
                 f"to judge by its seeds, a repeat of {name} differs by at most "
                 f"{', '.join(known)} (95 %); with canonical data and referees drawn anew as well, "
-                "40 to 83 % of repeats did (results/reliability)"
+                "40 to 83 % of repeats stayed within that (results/reliability)"
             )
     if any(len(standing.robots) > 1 for standing in standings):
         notes.append(

@@ -8,7 +8,7 @@ canonical episodes that neither its training nor its selection saw.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -109,15 +109,19 @@ def train_panels(
     adversaries: Sequence[tuple[Episodes, Episodes]],
     settings: RefereeSettings,
     key: PRNGKeyArray,
+    *,
+    each: Callable[[], None] = lambda: None,
 ) -> list[Panel]:
     """The panels of a group of adversaries, given (train, validation) of each.
 
-    One after the other: nothing that is fitted for one depends on who else is in the group.
+    One after the other: nothing that is fitted for one depends on who else is in the group. `each`
+    is called after each of them.
     """
-    return [
-        train_panel(folds, *episodes, settings, jax.random.fold_in(key, index))
-        for index, episodes in enumerate(adversaries)
-    ]
+    panels = []
+    for index, episodes in enumerate(adversaries):
+        panels.append(train_panel(folds, *episodes, settings, jax.random.fold_in(key, index)))
+        each()
+    return panels
 
 
 def train_panel(

@@ -30,7 +30,7 @@ export const COLUMNS: readonly Column[] = [
   numeric("impulse [N·s]", (p) => p.impulse, (v) => fixed(v, 1)),
   numeric("regret", (p) => p.regret, fixed),
   numeric("faults", (p) => p.faults, (v) => fixed(v, 0)),
-  { name: "converged", key: (p) => (p.converged === null ? null : Number(p.converged)), text: (p) => yes(p.converged), numeric: false },
+  { name: "at rest", key: (p) => (p.converged === null ? null : Number(p.converged)), text: (p) => yes(p.converged), numeric: false },
   { name: "frontier", key: (p) => Number(p.onFrontier), text: (p) => yes(p.onFrontier), numeric: false },
 ];
 

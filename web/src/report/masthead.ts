@@ -75,7 +75,7 @@ export function headlines(payload: Payload): HTMLElement {
   const seeds = seedsOf(payload).length;
   return h("section", { class: "headlines", "aria-label": "Headline numbers" },
     worst(payload, seeds),
-    headline("auc-natural", "Mean over [0.8, 1]", scalar(payload, "auc_natural"), seeds, note("the natural end of the frontier")),
+    headline("auc-natural", "Mean over [0.8, 1]", scalar(payload, "auc_natural"), seeds, note("height of the frontier, which mixes humans")),
     headline("auc", "AUC", scalar(payload, "auc"), seeds, note("lower is more robust")),
     success(payload),
     h("p", { class: "honesty" },
