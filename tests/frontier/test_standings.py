@@ -98,7 +98,7 @@ def test_single_robots_of_different_humans_pair_by_seed_and_are_named():
 def test_notes_say_over_what_intervals_are_and_what_a_repeat_would_do():
     assert notes_of(standings_of(BOTH))[0].startswith("95 % intervals over robots and search seeds")
     alone = notes_of(standings_of({"a": VANILLA[:1], "b": ROBUST[:1]}))
-    assert alone[0].startswith("to judge by its seeds, a repeat of a differs by at most 0.")
+    assert alone[0].startswith("to judge by its seeds alone, a repeat of a should lie within 0.")
     assert not any("over robots" in note for note in alone)
 
 

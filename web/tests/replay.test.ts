@@ -130,7 +130,14 @@ test("a scene without people has no touched limb", () => {
   assert.equal(touchedGeom(scene, clipOf([[0, 0, 0, ...STILL]]), contact), -1);
 });
 
-test("the page opens on the hardest unwanted contact, else on the closest approach", () => {
+test("the page opens on what it says went wrong", () => {
+  const frames = [0, 1, 2].map(() => [0, 0, 0, ...STILL]);
+  const touched = { forceUnwanted: [9, 0, 0], failure: { frame: 2, says: "robot stuck" } };
+  assert.equal(tellingFrame(clipOf(frames, touched)), 2);
+  assert.equal(tellingFrame(clipOf(frames, { failure: { frame: 7, says: "beyond" } })), 2);
+});
+
+test("where nothing is said the page opens on the hardest unwanted contact, else on the closest approach", () => {
   const frames = [0, 1, 2].map(() => [0, 0, 0, ...STILL]);
   assert.equal(tellingFrame(clipOf(frames, { forceUnwanted: [0, 9, 3], distance: [3, 2, 1] })), 1);
   assert.equal(tellingFrame(clipOf(frames, { forceUnwanted: [0, 0, 0], distance: [3, 1, 2] })), 1);

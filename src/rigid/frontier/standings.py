@@ -81,9 +81,9 @@ def notes_of(standings: Sequence[Standing]) -> list[str]:
         if known:
             name = baseline.method.name
             notes.append(
-                f"to judge by its seeds, a repeat of {name} differs by at most "
-                f"{', '.join(known)} (95 %); with canonical data and referees drawn anew as well, "
-                "40 to 83 % of repeats stayed within that (results/reliability)"
+                f"to judge by its seeds alone, a repeat of {name} should lie within "
+                f"{', '.join(known)} of it; in repeats of an itch-scratching robot with all drawn "
+                "anew 40 to 83 % did (results/reliability)"
             )
     if any(len(standing.robots) > 1 for standing in standings):
         notes.append(
@@ -99,11 +99,12 @@ def notes_of(standings: Sequence[Standing]) -> list[str]:
         f"{TITLES['hull_at']} tells robots apart more steadily: 95 % intervals of its differences "
         f"covered 94 to 96 %, those of {TITLES['worst_at']} 76 to 87 % (results/coverage)"
     )
-    if any(_is_straight(standing) for standing in standings):
+    straight = [standing.method.name for standing in standings if _is_straight(standing)]
+    if straight:
         notes.append(
-            f"{TITLES['hull_at']} equals {TITLES['auc_natural']} where the hull is a straight line "
-            "over [0.8, 1], of which 0.9 is the middle: no human that was found in between rises "
-            "above it"
+            f"{TITLES['hull_at']} equals {TITLES['auc_natural']} of {', '.join(straight)}, whose "
+            "hulls are straight lines over [0.8, 1], of which 0.9 is the middle: no human that was "
+            "found in between rises above them"
         )
     return [*notes, steadier, "lower is more robust; estimates at this search power, not bounds"]
 

@@ -76,8 +76,9 @@ export function tipOf(scene: Scene): { body: number; point: Vector } | null {
   return geom ? { body: geom.body, point: geom.pos } : null;
 }
 
-/** The frame worth opening on: the hardest unwanted contact, else the closest approach. */
+/** The frame worth opening on: what went wrong, else the hardest unwanted contact, else the closest approach. */
 export function tellingFrame(clip: Clip): number {
+  if (clip.failure !== null) return Math.min(clip.failure.frame, clip.frames - 1);
   const best = (values: readonly number[], better: (a: number, b: number) => boolean): number =>
     values.reduce((found, value, i) => (better(value, values[found] ?? NaN) ? i : found), 0);
   const hardest = best(clip.forceUnwanted, (a, b) => a > b || Number.isNaN(b));

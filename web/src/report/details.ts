@@ -23,7 +23,7 @@ function searched(point: Point): HTMLElement {
     entry("λ", lambdaText(point.lambda)),
     entry("seed, round", `${point.seed ?? UNKNOWN}, ${point.round ?? UNKNOWN}`),
     entry("training steps", count(point.envSteps)),
-    entry("training at rest", converged, point.converged === false && "counts all the same"),
+    entry("training at rest", converged, point.converged === false && "(its return still moved; it counts all the same)"),
     entry("faults", faultsText(point)),
     entry("on the frontier", point.onFrontier ? "yes" : "no"));
 }

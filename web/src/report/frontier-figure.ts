@@ -69,7 +69,7 @@ function frontierCaption(payload: Payload): HTMLElement {
   const line = seedsOf(payload).length > 1 ? "the mean of the hulls of all seeds" : "the hull";
   const frontier = `A mark that is not dominated is on the frontier: no other human is both more natural and more adversarial. It need not touch the line, ${line}.`;
   return caption(
-    `Each mark is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale} ${frontier}`,
+    `Each mark but the diamond and the triangle is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale} ${frontier}`,
     `${axisSentence(payload)} The boundary is what this search found, not the worst there is.`.trim(),
     `Choose a mark to ${watchable(payload) ? "watch it" : "read its numbers"}; arrow keys walk from mark to mark.`,
   );

@@ -47,7 +47,7 @@ export function pointsTable(payload: Payload, chosen: Signal<string | null>, phy
     h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "All humans found" },
       h("table", { class: "points" }, h("thead", {}, h("tr", {}, ...heads)), body)),
     caption(
-      "Everyone the search found, dominated ones included. The CSV holds every field of frontier.json.",
+      "Everyone the search found, dominated ones included. The CSV holds every field that frontier.json has of them.",
       physical || !columns.some(({ name }) => name.startsWith("peak force")) ? "" : "Forces are not physical: the paper's servo caps every joint at 1 N·m.",
       `Choose a row to ${watchable(payload) ? "watch it" : "read its numbers"}, a heading to sort.`,
     ));
