@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from rigid.compute.executors import Executor, find_executor
@@ -79,11 +79,7 @@ def measure(
         find_return_range(return_range, played),
     )
     chosen = find_preset(preset) if isinstance(preset, str) else preset
-    with ExitStack() as stack:
-        if listener is None and sys.stderr.isatty():
-            from rigid.commands.progress import TerminalListener
-
-            listener = stack.enter_context(TerminalListener(f"{robot} · {chosen.name}"))
+    with _heard(listener, f"{robot} · {chosen.name}") as hearing:
         return measure_robot(
             subject,
             chosen,
@@ -93,5 +89,17 @@ def measure(
             memory=memory,
             search_measure=search_measure,
             executor=find_executor(executor) if isinstance(executor, str) else executor,
-            listener=listener,
+            listener=hearing,
         )
+
+
+@contextmanager
+def _heard(listener: Listener | None, what: str) -> Iterator[Listener | None]:
+    """Who is told of progress: the given one, else a bar where somebody can see it."""
+    if listener is not None or not sys.stderr.isatty():
+        yield listener
+        return
+    from rigid.commands.progress import TerminalListener
+
+    with TerminalListener(what) as bar:
+        yield bar

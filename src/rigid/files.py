@@ -6,7 +6,7 @@ import errno
 import json
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
@@ -128,6 +128,25 @@ def parse_header(
         first = error.errors()[0]
         place = ".".join(str(part) for part in first["loc"]) or "the header"
         raise UserError(f"{where}: {place}: {first['msg']}: {cure}") from None
+
+
+def lies_there(path: Path | str, found: Callable[[Path], bool] = Path.exists) -> bool:
+    """Whether something lies at what a user wrote, which need not be a path at all.
+
+    A command may be longer than a name can be, which `Path.exists` and its like raise.
+
+    Args:
+        path: Whatever was written.
+        found: `Path.exists`, `Path.is_dir` or `Path.is_file`.
+
+    Example:
+        >>> lies_there("x" * 5000)
+        False
+    """
+    try:
+        return found(Path(path))
+    except OSError:
+        return False
 
 
 def first_difference(

@@ -14,6 +14,7 @@ import tyro
 
 from rigid.commands.helping import several
 from rigid.errors import UserError
+from rigid.files import lies_there
 
 if TYPE_CHECKING:
     from rigid.study.plan import StudyPlan
@@ -60,7 +61,7 @@ class NewCommand:
 
 def _below(spec: str, file: Path) -> str:
     """A robot as it is named from the folder of the study file."""
-    if not os.path.exists(spec):  # noqa: PTH110 - Path's raises where a command is too long.
+    if not lies_there(spec):
         return spec
     return Path(os.path.relpath(spec, file.resolve().parent)).as_posix()
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Any
 
 from rigid.compute.return_range import ReturnRange
 from rigid.errors import UserError
-from rigid.files import json_text
+from rigid.files import json_text, lies_there
 from rigid.naturalness.features import DEFAULT
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import BUNDLED, load_policy, policy_hash
@@ -105,7 +104,7 @@ def stranger(robot: str, human: str, met: Policy, task: Task) -> str | None:
         A warning; None where there is nothing to warn of.
     """
     folder = _folder(robot, task)
-    there = os.path.exists(folder / CARD_FILE)  # noqa: PTH110 - Path's raises on a long name.
+    there = lies_there(folder / CARD_FILE)
     if human != SYNTHETIC_HUMAN or not there or not isinstance(met, GaussianPolicy):
         return None
     known = load_card(folder).provenance.get("human")
@@ -150,8 +149,7 @@ def canonical_path(subject: Subject) -> Path | None:
     if subject.canonical_draw:
         return None
     file = _folder(subject.robot, subject.task) / CANONICAL_FILE
-    there = os.path.exists(file)  # noqa: PTH110 - Path's raises where a command is too long.
-    return file if there else None
+    return file if lies_there(file) else None
 
 
 def _folder(robot: str, task: Task) -> Path:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, replace
@@ -14,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from rigid.errors import UserError
-from rigid.files import json_text
+from rigid.files import json_text, lies_there
 from rigid.policies.architecture import NativePolicy, architecture_of, weights_of
 from rigid.policies.foreign import Wanted, check_made_for
 from rigid.policies.native import (
@@ -83,7 +82,7 @@ def _open(wanted: Wanted, opening: Opening) -> Policy:
         return _load_builtin(spec.removeprefix(_BUILTIN), task, agent)
     kind, colon, place = spec.partition(":")
     if not colon or kind not in _KINDS:  # No command is asked for on the disk.
-        if os.path.isdir(spec):  # noqa: PTH112 - Path's raises where a name is too long.
+        if lies_there(spec, Path.is_dir):
             return _load_directory(Path(spec), wanted)
         if spec.lower().endswith(_ONNX):
             return _onnx(spec, wanted, opening)
@@ -214,7 +213,7 @@ def _load_builtin(name: str, task: Task, agent: Agent) -> Policy:
 def native_directory(spec: str, task: Task) -> Iterator[Path | None]:
     """Where a policy that `load_policy` takes lies in the native format; None if it does not."""
     if not spec.startswith(_BUILTIN):
-        there = os.path.isfile(Path(spec) / CARD_FILE)  # noqa: PTH113 - Path's raises where a name is too long.
+        there = lies_there(Path(spec) / CARD_FILE, Path.is_file)
         yield Path(spec) if there else None
         return
     entry = BUNDLED / task.name / spec.removeprefix(_BUILTIN)
@@ -253,8 +252,7 @@ def _why_unknown(spec: str, task: Task, agent: Agent) -> str:
         return f"is no directory; did you mean '{_BUILTIN}{spec}'?"
     for ending, kind in _ENDINGS.items():
         if spec.lower().endswith(ending):
-            is_file = os.path.isfile(spec)  # noqa: PTH113 - Path's raises where a name is too long.
-            there = "a file" if is_file else "no directory"
+            there = "a file" if lies_there(spec, Path.is_file) else "no directory"
             return f"is {there}; did you mean '{kind}:{spec}', with --trust?"
     return f"is no directory: {known}"
 

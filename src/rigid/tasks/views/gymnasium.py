@@ -53,7 +53,7 @@ class SinglePlayerEnv(gymnasium.Env[np.ndarray, np.ndarray]):
     [-1, 1] (of a discrete action a score for each choice, of which the largest is taken).
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - as Gymnasium declares it
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - Gymnasium declares no ClassVar
 
     def __init__(
         self,
