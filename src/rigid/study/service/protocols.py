@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from asyncio.transports import BaseTransport, Transport
 from collections import Counter
+from socket import SO_SNDBUF, SOL_SOCKET
 from typing import Any, Final
 
 import h11
@@ -22,7 +23,8 @@ HEADER_SECONDS: Final = 10.0
 _PINGS: Final = Rate(20, 2)
 """Ping frames, which the application does not see. Ours: browsers send none."""
 UNREAD_BYTES: Final = 64 * 1024
-"""Frames that wait for who does not read: half a second of an episode at most. Ours."""
+"""Frames that wait for who does not read, here and as many in the system. Ours: about half a second
+of an episode."""
 
 
 class CountingHTTP(H11Protocol):
@@ -109,6 +111,8 @@ class CountingWebSocket(WebSocketsSansIOProtocol):
         """The connection of an HTTP request becomes a WebSocket."""
         if isinstance(transport, Transport):
             transport.set_write_buffer_limits(high=UNREAD_BYTES)
+            # Otherwise the system holds up to megabytes for who reads nothing: minutes of play.
+            transport.get_extra_info("socket").setsockopt(SOL_SOCKET, SO_SNDBUF, UNREAD_BYTES)
         super().connection_made(transport)
         self._of = network(self.client[0] if self.client else None)
 
