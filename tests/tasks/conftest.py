@@ -5,6 +5,7 @@ import pytest
 from rigid.tasks.bed_bathing.task import BedBathing
 from rigid.tasks.feeding.task import Feeding
 from rigid.tasks.itch_scratching.task import ItchScratching
+from tests.tasks.playing import start_by_name
 
 
 @pytest.fixture(scope="session")
@@ -29,3 +30,9 @@ def bed_bathing():
 def task(itch_scratching):
     """The task of tests that need one of RIGID's; folders of other tasks have their own."""
     return itch_scratching
+
+
+@pytest.fixture(scope="module")
+def start(task):
+    """The scene at the start of an episode, and what robot and human see of it by name."""
+    return start_by_name(task, 5)

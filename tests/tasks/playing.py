@@ -71,3 +71,21 @@ def point(seen, name):
 def deepest_overlap(world):
     """Of all bodies of all worlds, in the last step [m]."""
     return world._scene.penetration(world._scene.records["sensordata"]).max()
+
+
+def check_bounds(task, rows):
+    """Everything that is seen in these steps lies within the task's finite bounds."""
+    for agent in ("robot", "human"):
+        low, high = task.bounds(agent).T
+        assert np.isfinite([low, high]).all()
+        for step in rows:
+            seen = getattr(step, f"{agent}_observation")
+            assert (seen >= low).all()
+            assert (seen <= high).all()
+
+
+def check_sums(rows):
+    """The reward of each step is the sum of its named terms."""
+    for step in rows:
+        terms = [value for name, value in step.info.items() if name.startswith("reward_")]
+        np.testing.assert_allclose(step.reward, np.sum(terms, axis=0), rtol=1e-12)

@@ -145,7 +145,7 @@ def _assistive(
 
     def checked(**given: Any) -> Task:
         if isinstance(weighed := given.get("weights"), Mapping):
-            _check_known(f"{name}: unknown weight", weighed, _fields(weights))
+            _check_known(f"{name}: unknown weight", weighed, _own_first(weights))
             given["weights"] = weights(**weighed)
         try:
             return build(**given)
@@ -207,6 +207,11 @@ _BRIDGES: dict[str, Callable[[str], _Recipe]] = {
 
 def _fields(kind: type[Any]) -> tuple[str, ...]:
     return tuple(field.name for field in fields(kind))
+
+
+def _own_first(kind: type[Any]) -> tuple[str, ...]:
+    """Its fields; those that every task has come last."""
+    return tuple(sorted(_fields(kind), key=lambda name: name not in kind.__annotations__))
 
 
 def _check_known(what: str, given: Iterable[str], known: tuple[str, ...]) -> None:

@@ -5,7 +5,7 @@ import pytest
 
 from tests.tasks.bed_bathing.bather import Bather
 from tests.tasks.bed_bathing.conftest import SEEDS, still
-from tests.tasks.playing import played
+from tests.tasks.playing import check_sums, played
 
 
 def total(rows, name):
@@ -59,10 +59,7 @@ def test_a_point_pays_once_in_the_step_that_wipes_it(bathed):
 
 
 def test_the_reward_is_the_sum_of_its_named_terms(bathed):
-    _, rows, _ = bathed
-    for step in rows[1:]:
-        terms = [value for name, value in step.info.items() if name.startswith("reward_")]
-        np.testing.assert_allclose(step.reward, np.sum(terms, axis=0), rtol=1e-12)
+    check_sums(bathed[1][1:])
 
 
 def test_success_takes_thirty_percent_of_the_points(task):

@@ -1,19 +1,12 @@
 """What each player sees: sizes of the original, frames, and nothing of which points are left."""
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import Rotation
 
 from rigid.tasks.bed_bathing.observation import HUMAN_NAMES, ROBOT_NAMES
 from rigid.tasks.bed_bathing.scene import ARM
 from rigid.tasks.bodies import bed, wiper
-from tests.tasks.playing import point, start_by_name
-
-
-@pytest.fixture(scope="module")
-def start(task):
-    """The scene at the start of an episode, and what is seen of it by name."""
-    return start_by_name(task, 5)
+from tests.tasks.playing import check_bounds, point
 
 
 def test_both_see_as_many_numbers_as_in_the_original(task):
@@ -54,14 +47,7 @@ def test_the_pad_lies_level_at_the_start_and_upright_to_the_person(start):
 
 
 def test_everything_seen_lies_within_finite_bounds(task, bathed):
-    _, rows, _ = bathed
-    for agent in ("robot", "human"):
-        low, high = task.bounds(agent).T
-        assert np.isfinite([low, high]).all()
-        for step in rows:
-            seen = getattr(step, f"{agent}_observation")
-            assert (seen >= low).all()
-            assert (seen <= high).all()
+    check_bounds(task, bathed[1])
 
 
 def test_forces_are_felt(bathed):

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from rigid.tasks.bed_bathing.parameters import RewardWeights
-from rigid.tasks.bed_bathing.reward import HIGH_FORCE, reward_terms
+from rigid.tasks.bed_bathing.reward import reward_terms
 from rigid.tasks.bed_bathing.sensing import Contacts
+from rigid.tasks.physics.reward import HIGH_FORCE
 
 
 def contacts(pad=0.0, elsewhere=0.0):

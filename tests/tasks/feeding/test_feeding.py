@@ -5,7 +5,7 @@ import numpy as np
 from rigid.tasks.feeding.food import Piece
 from tests.tasks.feeding.conftest import SEEDS
 from tests.tasks.feeding.feeder import Feeder
-from tests.tasks.playing import played
+from tests.tasks.playing import check_sums, played
 
 
 def total(rows, name):
@@ -38,10 +38,7 @@ def test_eaten_food_pays_in_the_step_that_eats_it(fed):
 
 
 def test_the_reward_is_the_sum_of_its_named_terms(fed):
-    _, rows, _ = fed
-    for step in rows[1:]:
-        terms = [value for name, value in step.info.items() if name.startswith("reward_")]
-        np.testing.assert_allclose(step.reward, np.sum(terms, axis=0), rtol=1e-12)
+    check_sums(fed[1][1:])
 
 
 def test_success_takes_six_eaten_pieces(task):

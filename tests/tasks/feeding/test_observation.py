@@ -1,17 +1,10 @@
 """What each player sees: sizes of the original, frames, and the mouth for both."""
 
 import numpy as np
-import pytest
 
 from rigid.tasks.bodies import head, spoon, wheelchair
 from rigid.tasks.feeding.observation import HUMAN_NAMES, ROBOT_NAMES
-from tests.tasks.playing import point, start_by_name
-
-
-@pytest.fixture(scope="module")
-def start(task):
-    """The scene at the start of an episode, and what is seen of it by name."""
-    return start_by_name(task, 5)
+from tests.tasks.playing import check_bounds, point
 
 
 def test_both_see_as_many_numbers_as_in_the_original(task):
@@ -41,14 +34,7 @@ def test_the_robot_sees_from_its_base_and_the_human_from_the_chest(task, start):
 
 
 def test_everything_seen_lies_within_finite_bounds(task, fed):
-    _, rows, _ = fed
-    for agent in ("robot", "human"):
-        low, high = task.bounds(agent).T
-        assert np.isfinite([low, high]).all()
-        for step in rows:
-            seen = getattr(step, f"{agent}_observation")
-            assert (seen >= low).all()
-            assert (seen <= high).all()
+    check_bounds(task, fed[1])
 
 
 def test_forces_are_felt(fed):

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from rigid.tasks.feeding.parameters import RewardWeights
-from rigid.tasks.feeding.reward import HIGH_FORCE, FoodEvents, reward_terms
+from rigid.tasks.feeding.reward import FoodEvents, reward_terms
 from rigid.tasks.feeding.sensing import Contacts
+from rigid.tasks.physics.reward import HIGH_FORCE
 
 
 def contacts(spoon=0.0, arm=0.0):

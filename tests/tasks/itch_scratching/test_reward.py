@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from rigid.tasks.itch_scratching.parameters import RewardWeights
-from rigid.tasks.itch_scratching.reward import HIGH_FORCE, MOVED, counted_contacts, reward_terms
+from rigid.tasks.itch_scratching.reward import MOVED, counted_contacts, reward_terms
 from rigid.tasks.itch_scratching.sensing import Contacts
+from rigid.tasks.physics.reward import HIGH_FORCE
 from tests.tasks.scripted import random_actions
 
 

@@ -6,11 +6,10 @@ import pytest
 from rigid.errors import UserError
 from rigid.tasks.bodies import human, kinematics, scratcher
 from rigid.tasks.itch_scratching.starts import STARTS
-from tests.tasks.playing import start_by_name
 
 
-def test_the_first_observation_shows_the_start(task):
-    data, _, person = start_by_name(task, 5)
+def test_the_first_observation_shows_the_start(task, start):
+    data, _, person = start
     tip = data.site(scratcher.TIP_SITE).xpos
     np.testing.assert_allclose(list(person.values())[:3], tip - task.chest, atol=1e-6)
 

@@ -16,14 +16,8 @@ class RewardWeights(Weights):
     """Per metre between pad and arm."""
     wipe: float = 5.0
     """Per point that is wiped."""
-    action: float = 0.01
-    """Per unit of the joint action's 2-norm."""
-    velocity: float = 0.25
-    """Per m/s of the end effector."""
     other_force: float = 0.01
     """Per newton on the person, but for that of the pad on the arm."""
-    high_force: float = 0.05
-    """Per newton of the pad on the arm from 10 N on."""
 
 
 @dataclass(frozen=True, kw_only=True)

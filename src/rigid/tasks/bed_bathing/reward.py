@@ -7,9 +7,7 @@ from jaxtyping import Float, Int
 
 from rigid.tasks.bed_bathing.parameters import RewardWeights
 from rigid.tasks.bed_bathing.sensing import Contacts
-
-HIGH_FORCE = 10.0
-"""From this force of the pad on, contact hurts [N] (Assistive Gym)."""
+from rigid.tasks.physics.reward import effort, high_force
 
 
 def reward_terms(
@@ -31,12 +29,10 @@ def reward_terms(
         end_effector_speed: [m/s].
         contacts: Contacts of the step; forces enter as means over its physics steps.
     """
-    peak = contacts.force_pad.max(axis=1)
     return {
         "distance": -weights.distance * distance,
         "wipe": weights.wipe * wiped,
-        "action": -weights.action * np.linalg.norm(action, axis=1),
-        "velocity": -weights.velocity * end_effector_speed,
+        **effort(weights, action, end_effector_speed),
         "other_force": -weights.other_force * contacts.force_unwanted.mean(axis=1),
-        "high_force": -weights.high_force * np.where(peak >= HIGH_FORCE, peak, 0.0),
+        **high_force(weights, contacts.force_pad),
     }

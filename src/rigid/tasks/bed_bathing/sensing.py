@@ -13,6 +13,7 @@ from rigid.tasks.bed_bathing.points import LIMBS
 from rigid.tasks.bed_bathing.scene import ARM, PAD_CONTACTS
 from rigid.tasks.bodies import lying
 from rigid.tasks.physics.sensing import (
+    all_but,
     normal_columns,
     person_columns,
     sensor_columns,
@@ -87,8 +88,7 @@ class Sensors:
         """
         on_person = data[..., self._person].sum(axis=(-1, -2))
         pad = data[..., self._pad + 1].sum(axis=(-1, -2))
-        # Less than rounding of the two sums is no contact.
-        unwanted: np.ndarray = np.where(on_person > pad + 1e-9, on_person - pad, 0.0)
+        unwanted = all_but(on_person, pad)
         touching = data[..., self._pad[: len(LIMBS)]] > 0
         return Contacts(
             force_on_person=on_person,

@@ -22,14 +22,8 @@ class RewardWeights(Weights):
     """Per piece that falls on the person."""
     food_speed: float = 1.0
     """Per m/s of each piece as it reaches the mouth."""
-    action: float = 0.01
-    """Per unit of the joint action's 2-norm."""
-    velocity: float = 0.25
-    """Per m/s of the end effector."""
     force: float = 0.01
     """Per newton of robot and spoon on the person."""
-    high_force: float = 0.05
-    """Per newton of the spoon on the person from 10 N on."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,9 +9,7 @@ from jaxtyping import Float, Int
 
 from rigid.tasks.feeding.parameters import RewardWeights
 from rigid.tasks.feeding.sensing import Contacts
-
-HIGH_FORCE = 10.0
-"""From this force of the spoon on, contact hurts [N] (Assistive Gym)."""
+from rigid.tasks.physics.reward import effort, high_force
 
 
 class FoodEvents(NamedTuple):
@@ -44,15 +42,13 @@ def reward_terms(
         spoon_speed: [m/s]: that of food as it is eaten.
         contacts: Contacts of the step; forces enter as means over its physics steps.
     """
-    peak = contacts.force_spoon.max(axis=1)
     return {
         "distance": -weights.distance * distance,
         "food": weights.food * food.eaten,
         "spill": -weights.spill * food.spilled,
         "food_hit": -weights.food_hit * food.on_person,
         "food_speed": -weights.food_speed * food.eaten * spoon_speed,
-        "action": -weights.action * np.linalg.norm(action, axis=1),
-        "velocity": -weights.velocity * end_effector_speed,
+        **effort(weights, action, end_effector_speed),
         "force": -weights.force * contacts.force_on_person.mean(axis=1),
-        "high_force": -weights.high_force * np.where(peak >= HIGH_FORCE, peak, 0.0),
+        **high_force(weights, contacts.force_spoon),
     }

@@ -11,6 +11,7 @@ from jaxtyping import Bool, Float
 from rigid.tasks.bodies import head
 from rigid.tasks.feeding.scene import PARTS, SPOON_CONTACTS
 from rigid.tasks.physics.sensing import (
+    all_but,
     normal_columns,
     person_columns,
     sensor_columns,
@@ -100,8 +101,7 @@ class Sensors:
         mouth = data[..., self._poses["mouth_position"]]
         near = np.linalg.norm(place - mouth[..., None, :], axis=-1) < LIPS
         at_mouth = np.where(near, on_head, 0.0).sum(axis=-1)
-        # Less than rounding of the two sums is no contact.
-        unwanted: np.ndarray = np.where(on_person > at_mouth + 1e-9, on_person - at_mouth, 0.0)
+        unwanted = all_but(on_person, at_mouth)
         return Contacts(
             force_on_person=on_person,
             force_spoon=data[..., self._spoon].sum(axis=(-1, -2)) + on_head.sum(axis=-1),

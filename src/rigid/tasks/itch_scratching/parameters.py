@@ -20,14 +20,8 @@ class RewardWeights(Weights):
     """Per metre between tip and itch. Ours: three times Assistive Gym's 1.0."""
     scratch: float = 5.0
     """Per counted contact (Assistive Gym)."""
-    action: float = 0.01
-    """Per unit of the joint action's 2-norm (Assistive Gym)."""
-    velocity: float = 0.25
-    """Per m/s of the end effector (Assistive Gym)."""
     other_force: float = 0.01
     """Per newton on the person away from the itch (Assistive Gym)."""
-    high_force: float = 0.05
-    """Per newton at the itch from 10 N on (Assistive Gym)."""
     unwanted_contact: float = 2.0
     """Per step in which the robot touches the person anywhere but on the arms. Ours."""
 

@@ -7,11 +7,10 @@ from jaxtyping import Bool, Float
 
 from rigid.tasks.itch_scratching.parameters import RewardWeights
 from rigid.tasks.itch_scratching.sensing import Contacts
+from rigid.tasks.physics.reward import HIGH_FORCE, effort, high_force
 
 MOVED = 0.01
 """A contact counts again once its point has moved this far in the world [m] (Assistive Gym)."""
-HIGH_FORCE = 10.0
-"""From this force at the itch on, a contact hurts and does not count [N] (Assistive Gym)."""
 SUCCESS_CONTACTS = 25
 """Counted contacts of a helped episode (paper, section 5)."""
 
@@ -22,7 +21,7 @@ def counted_contacts(
     """Whether this control step adds a counted contact: at the itch, moved, and not too hard.
 
     Contacts of every physics step are looked at (the original looks at the last one only), and at
-    most one is counted in a control step.
+    most one is counted in a control step. From `HIGH_FORCE` on none is.
     """
     moved = np.linalg.norm(contacts.itch_contact - last_counted, axis=1) > MOVED
     gentle = contacts.force_itch.max(axis=1) < HIGH_FORCE
@@ -51,13 +50,11 @@ def reward_terms(
     """
     at_itch = contacts.force_itch.mean(axis=1)
     elsewhere = np.maximum(contacts.force_on_person.mean(axis=1) - at_itch, 0.0)
-    peak = contacts.force_itch.max(axis=1)
     return {
         "distance": -weights.distance * distance,
         "scratch": weights.scratch * counted,
-        "action": -weights.action * np.linalg.norm(action, axis=1),
-        "velocity": -weights.velocity * end_effector_speed,
+        **effort(weights, action, end_effector_speed),
         "other_force": -weights.other_force * elsewhere,
-        "high_force": -weights.high_force * np.where(peak >= HIGH_FORCE, peak, 0.0),
+        **high_force(weights, contacts.force_itch),
         "unwanted_contact": -weights.unwanted_contact * contacts.touched_unwanted,
     }

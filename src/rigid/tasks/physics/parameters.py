@@ -12,7 +12,17 @@ from rigid.tasks.physics.again import fine_steps
 
 @dataclass(frozen=True, kw_only=True)
 class Weights:
-    """Weights of reward terms, numbers from 0 on; the reward is shared by robot and human."""
+    """Weights of reward terms, numbers from 0 on; the reward is shared by robot and human.
+
+    These three are Assistive Gym's in every task.
+    """
+
+    action: float = 0.01
+    """Per unit of the joint action's 2-norm."""
+    velocity: float = 0.25
+    """Per m/s of the end effector."""
+    high_force: float = 0.05
+    """Per newton of the tool where it belongs, from 10 N on."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -32,6 +32,14 @@ class PersonContacts(Protocol):
         ...
 
 
+def all_but(
+    on_person: Float[np.ndarray, "*B"], wanted: Float[np.ndarray, "*B"]
+) -> Float[np.ndarray, "*B"]:
+    """The part of a force that is unwanted; less than rounding of the two sums is no contact."""
+    unwanted: np.ndarray = np.where(on_person > wanted + 1e-9, on_person - wanted, 0.0)
+    return unwanted
+
+
 def sensor_start(model: mujoco.MjModel, name: str) -> int:
     """First column of a sensor in `sensordata`."""
     return int(model.sensor(name).adr[0])
