@@ -133,18 +133,19 @@ def parse_header(
 def lies_there(path: Path | str, found: Callable[[Path], bool] = Path.exists) -> bool:
     """Whether something lies at what a user wrote, which need not be a path at all.
 
-    A command may be longer than a name can be, which `Path.exists` and its like raise.
+    A command may be longer than a name can be, which `Path.exists` and its like raise, and nothing
+    at all is no name, which they take for the current directory.
 
     Args:
         path: Whatever was written.
         found: `Path.exists`, `Path.is_dir` or `Path.is_file`.
 
     Example:
-        >>> lies_there("x" * 5000)
-        False
+        >>> lies_there("x" * 5000), lies_there("")
+        (False, False)
     """
     try:
-        return found(Path(path))
+        return path != "" and found(Path(path))
     except OSError:
         return False
 
