@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from pydantic import BaseModel
@@ -11,6 +12,7 @@ from rigid.errors import UserError
 from rigid.files import (
     first_difference,
     json_text,
+    lies_there,
     make_room,
     parse_header,
     read_bytes,
@@ -111,3 +113,11 @@ def test_json_knows_no_nan():
 )
 def test_the_first_difference_is_named_with_both_values(mine, theirs, difference):
     assert first_difference(mine, theirs) == difference
+
+
+@pytest.mark.parametrize("written", ["", "x" * 5000, "a/file/below"])
+def test_what_is_no_path_lies_nowhere(tmp_path, monkeypatch, written):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a").touch()
+    assert lies_there("a", Path.is_file)
+    assert not any(lies_there(written, found) for found in (Path.exists, Path.is_dir, Path.is_file))
