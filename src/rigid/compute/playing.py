@@ -58,12 +58,12 @@ def play_in_turns(
 
     Args:
         task: The task.
-        robot: Acts by its mean.
+        robot: As in `play_with`, like all others but `human`.
         human: Makes the actor of so many worlds; asked once for each turn.
-        starts: Episode seeds, the same for every human.
-        humans: How many there are.
-        snapshots: Is given one entry a step, for replays.
-        threads: That step the worlds; 0: every core.
+        starts: Likewise.
+        humans: Likewise.
+        snapshots: Likewise.
+        threads: Likewise.
     """
     count = _turns(task, humans, len(starts))
     if count == 1:
