@@ -22,7 +22,7 @@ from jaxtyping import Float, UInt8
 from PIL import Image
 
 from benchmarks.command import exit_code
-from rigid.compute.moments import Moment, moment, people_in
+from rigid.compute.pairs.moments import Moment, moment, people_in
 from rigid.errors import UserError
 from rigid.files import write_atomically
 from rigid.report.film import FilmSettings, Take, film

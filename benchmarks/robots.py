@@ -9,7 +9,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from rigid.commands.training_progress import show_progress
+from rigid.commands.train.progress import show_progress
 from rigid.errors import UserError
 from rigid.files import first_difference
 from rigid.learning.personalisation import PersonalisationSettings

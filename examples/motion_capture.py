@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 from jaxtyping import Float
 
-from rigid.compute.scoring import play_with
+from rigid.compute.search.scoring import play_with
 from rigid.learning.rollout import policy_actor
 from rigid.policies.loading import load_policy
 from rigid.tasks.bodies.human import ARM_JOINTS

@@ -15,29 +15,29 @@ from rigid.cli import run
 from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
 from rigid.commands.calibrating import CalibrateCommand
-from rigid.commands.comparing import CompareCommand
+from rigid.commands.compare.command import CompareCommand
 from rigid.commands.data import ExportCommand as ExportDataCommand
 from rigid.commands.data import ImportCommand
-from rigid.commands.data_looking import CheckCommand, ShowCommand
+from rigid.commands.data.looking import CheckCommand, ShowCommand
 from rigid.commands.doctoring import DoctorCommand
-from rigid.commands.exporting import ExportCommand
+from rigid.commands.export.command import ExportCommand
 from rigid.commands.gating import GateCommand
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.pairing import PairsCommand
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
-from rigid.commands.study_analyzing import AnalyzeCommand
-from rigid.commands.study_exporting import ExportCommand as ExportStudyCommand
-from rigid.commands.study_exporting import WithdrawCommand
-from rigid.commands.study_piloting import PilotCommand
-from rigid.commands.study_planning import NewCommand
-from rigid.commands.study_planning import ShowCommand as ShowStudyCommand
-from rigid.commands.study_power import PowerCommand
-from rigid.commands.study_serving import ServeCommand
-from rigid.commands.training_clone import CloneCommand
-from rigid.commands.training_palm import PalmCommand
-from rigid.commands.training_robots import CoOptimizeCommand, GleaveCommand, VanillaCommand
-from rigid.commands.training_robust import RobustCommand
+from rigid.commands.study.analyzing import AnalyzeCommand
+from rigid.commands.study.exporting import ExportCommand as ExportStudyCommand
+from rigid.commands.study.exporting import WithdrawCommand
+from rigid.commands.study.piloting import PilotCommand
+from rigid.commands.study.planning import NewCommand
+from rigid.commands.study.planning import ShowCommand as ShowStudyCommand
+from rigid.commands.study.power import PowerCommand
+from rigid.commands.study.serving import ServeCommand
+from rigid.commands.train.clone import CloneCommand
+from rigid.commands.train.palm import PalmCommand
+from rigid.commands.train.robots import CoOptimizeCommand, GleaveCommand, VanillaCommand
+from rigid.commands.train.robust import RobustCommand
 from rigid.commands.verifying import VerifyCommand
 from rigid.errors import UserError
 

@@ -12,7 +12,7 @@ import numpy as np
 from benchmarks.study import say
 from rigid.compute.endings import Ended, ended
 from rigid.compute.playing import play_with
-from rigid.compute.scoring import seen_by_referee
+from rigid.compute.search.scoring import seen_by_referee
 from rigid.learning.rollout import Actor, Trajectories, policy_actor
 from rigid.naturalness.views import Episodes
 from rigid.policies.gaussian import GaussianPolicy

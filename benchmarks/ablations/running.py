@@ -14,11 +14,11 @@ from benchmarks.ablations.summary import size_rows, variant_rows
 from benchmarks.ablations.training import Point, Workplace
 from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
-from rigid.commands.progress import TerminalListener
+from rigid.commands.terminal.progress import TerminalListener
 from rigid.compute.budget import training_speed
 from rigid.compute.listening import Workload
-from rigid.compute.provenance import command_line
-from rigid.compute.run_directory import alone_in, check_place, open_run
+from rigid.compute.run.directory import alone_in, check_place, open_run
+from rigid.compute.run.provenance import command_line
 from rigid.files import write_atomically
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import load_policy

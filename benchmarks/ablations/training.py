@@ -13,12 +13,12 @@ import jax
 from benchmarks.ablations.humans import Parts, parts_of
 from benchmarks.ablations.plan import HUMAN, ROBOT, TASK, Plan, Variant
 from benchmarks.study import once
-from rigid.compute.convergence import convergence
 from rigid.compute.endings import measure
-from rigid.compute.group import train_group
-from rigid.compute.group_plan import GroupInputs, GroupPlan
 from rigid.compute.playing import play_with
 from rigid.compute.preparation import Prepared, prepare
+from rigid.compute.search.convergence import convergence
+from rigid.compute.search.group import train_group
+from rigid.compute.search.group_plan import GroupInputs, GroupPlan
 from rigid.compute.subject import Subject
 from rigid.learning.group_play import group_actor, phase_rng
 from rigid.naturalness.features import DEFAULT

@@ -14,7 +14,7 @@ from benchmarks.measures.shares import Found
 from benchmarks.short_search import short_settings
 from benchmarks.study import say
 from rigid.commands.parsing import spoken
-from rigid.commands.progress import TerminalListener
+from rigid.commands.terminal.progress import TerminalListener
 from rigid.compute.budget import training_speed
 from rigid.compute.measurement import measure_robot
 from rigid.compute.subject import Subject

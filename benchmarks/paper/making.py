@@ -12,8 +12,8 @@ from typing import Literal
 from benchmarks.kept import has_policy, keep_policy
 from benchmarks.paper.places import Places
 from benchmarks.paper.plan import Plan
-from rigid.commands.progress import TerminalListener
-from rigid.commands.training_progress import show_progress, show_stages
+from rigid.commands.terminal.progress import TerminalListener
+from rigid.commands.train.progress import show_progress, show_stages
 from rigid.compute.subject import CANONICAL_FILE
 from rigid.data.episodes import save_episodes
 from rigid.data.recording import record

@@ -11,7 +11,7 @@ from benchmarks.kept import keep_run, kept_run
 from benchmarks.paper.making import SCOUT, Making
 from benchmarks.paper.places import Places
 from benchmarks.paper.plan import Plan
-from rigid.commands.progress import TerminalListener
+from rigid.commands.terminal.progress import TerminalListener
 from rigid.data.episodes import save_episodes
 from rigid.data.recording import record
 from rigid.frontier.result import Frontier, load_frontier

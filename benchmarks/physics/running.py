@@ -16,7 +16,7 @@ from benchmarks.physics.swinging import swings
 from benchmarks.physics.tables import part_name, table
 from benchmarks.physics.windows import replay_pair
 from benchmarks.study import once, say, write_table
-from rigid.compute.run_directory import alone_in
+from rigid.compute.run.directory import alone_in
 from rigid.errors import UserError
 
 

@@ -10,8 +10,8 @@ import rigid
 from benchmarks.prediction.plan import HumanPlan, Plan
 from benchmarks.robots import OWN_HUMAN, TASK, RobotPlan, check_made, make_robot, refuse_other
 from benchmarks.study import once, say
-from rigid.commands.progress import TerminalListener
-from rigid.commands.training_progress import show_progress
+from rigid.commands.terminal.progress import TerminalListener
+from rigid.commands.train.progress import show_progress
 from rigid.compute.evaluation import evaluate
 from rigid.errors import UserError
 from rigid.policies.loading import load_policy, policy_hash

@@ -18,7 +18,7 @@ from benchmarks.robots import RobotPlan
 from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
 from rigid.compute.budget import FIXED_SECONDS, training_speed
-from rigid.compute.run_directory import alone_in
+from rigid.compute.run.directory import alone_in
 from rigid.errors import UserError
 from rigid.files import write_atomically
 from rigid.policies.native import CARD_FILE

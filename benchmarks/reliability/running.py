@@ -10,7 +10,7 @@ from benchmarks.reliability.plan import NUMBERS, Plan
 from benchmarks.reliability.spread import measurement_rows, pair_rows, spread_of
 from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
-from rigid.commands.progress import TerminalListener
+from rigid.commands.terminal.progress import TerminalListener
 from rigid.compute.budget import FIXED_SECONDS, training_speed
 from rigid.compute.measurement import measure_robot
 from rigid.compute.subject import Subject

@@ -10,7 +10,7 @@ from typing import Any
 from benchmarks.robots import OWN_HUMAN
 from benchmarks.standard.making import Workplace
 from benchmarks.standard.plan import Part, Robot
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.files import first_difference
 from rigid.policies.loading import load_policy, policy_hash

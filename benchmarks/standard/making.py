@@ -8,10 +8,10 @@ from pathlib import Path
 from benchmarks.kept import has_policy, keep_policy, keep_run, kept_run
 from benchmarks.robots import OWN_HUMAN, TASK, check_made, make_robot
 from benchmarks.standard.plan import Part, Plan, Robot
-from rigid.compute.group_plan import GroupPlan
 from rigid.compute.listening import Listener
 from rigid.compute.preparation import settings_for
 from rigid.compute.robot_run import Order
+from rigid.compute.search.group_plan import GroupPlan
 from rigid.compute.subject import CANONICAL_FILE, Subject
 from rigid.frontier.result import FILE, Frontier
 from rigid.tasks.registry import make_task

@@ -17,13 +17,13 @@ from benchmarks.standard.plan import Part, Plan
 from benchmarks.standard.work import Work, training_seconds, work_of
 from benchmarks.study import say, write_table
 from rigid.commands.parsing import spoken
-from rigid.commands.progress import TerminalListener
+from rigid.commands.terminal.progress import TerminalListener
 from rigid.compute.budget import training_speed
-from rigid.compute.executors import Executor, on_this_machine
+from rigid.compute.executors.executor import Executor, on_this_machine
 from rigid.compute.listening import Silence, Workload
 from rigid.compute.measurement import measure_each
 from rigid.compute.robot_run import Order
-from rigid.compute.run_directory import alone_in
+from rigid.compute.run.directory import alone_in
 from rigid.compute.threads import fix_xla_threads
 from rigid.files import make_room, write_atomically
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 from benchmarks.standard.making import Workplace
 from benchmarks.standard.plan import Part
-from rigid.compute.executors import Executor
-from rigid.compute.processes import Processes
+from rigid.compute.executors.executor import Executor
+from rigid.compute.executors.processes import Processes
 from rigid.cores import cores
 from rigid.presets import Preset
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from rigid.compute.executors import Executor, find_executor
+from rigid.compute.executors.executor import Executor, find_executor
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
 from rigid.compute.return_range import find_return_range
@@ -99,7 +99,7 @@ def _heard(listener: Listener | None, what: str) -> Iterator[Listener | None]:
     if listener is not None or not sys.stderr.isatty():
         yield listener
         return
-    from rigid.commands.progress import TerminalListener
+    from rigid.commands.terminal.progress import TerminalListener
 
     with TerminalListener(what) as bar:
         yield bar

@@ -18,22 +18,22 @@ import tyro
 from rigid.commands.benchmarking import BenchCommand
 from rigid.commands.blaming import BlameCommand
 from rigid.commands.calibrating import CalibrateCommand
-from rigid.commands.comparing import CompareCommand
+from rigid.commands.compare.command import CompareCommand
 from rigid.commands.data import DATA
 from rigid.commands.doctoring import DoctorCommand
-from rigid.commands.exporting import ExportCommand
+from rigid.commands.export.command import ExportCommand
 from rigid.commands.gating import GateCommand
 from rigid.commands.groups import Group
-from rigid.commands.helping import described, fitted_help, summary
 from rigid.commands.measuring import DemoCommand, FrontierCommand, ReportCommand
 from rigid.commands.pairing import PairsCommand
 from rigid.commands.parsing import printable
 from rigid.commands.playing import EvaluateCommand, RecordCommand
 from rigid.commands.refereeing import RefereeCommand
 from rigid.commands.study import STUDY
-from rigid.commands.training import TRAIN
+from rigid.commands.terminal.helping import described, fitted_help, summary
+from rigid.commands.terminal.wrapping import tell
+from rigid.commands.train import TRAIN
 from rigid.commands.verifying import VerifyCommand
-from rigid.commands.wrapping import tell
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
 from rigid.serving.environment import shut_working_directory

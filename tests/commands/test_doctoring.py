@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from rigid.commands.doctoring import table
-from rigid.compute import doctor
-from rigid.compute.doctor import Diagnosis
+from rigid.compute.doctor import domain as doctor
+from rigid.compute.doctor.domain import Diagnosis
 from rigid.doctor.verdict import TITLES, Verdict, skipped
 
 GOOD = Verdict("features", "pass", "They vary.")

@@ -39,7 +39,7 @@ def test_record_refuses_a_directory_as_its_file(rigid, toy_options, tmp_path):
 
 WORK = {
     "record": ("rigid.data.recording.record", ["--out"]),
-    "verify": ("rigid.compute.verifying.plan_verification", ["--json"]),
+    "verify": ("rigid.compute.verification.plan.plan_verification", ["--json"]),
     "bench": ("rigid.commands.benchmarking._measured", ["--json"]),
 }
 
@@ -57,7 +57,7 @@ def test_a_file_that_cannot_be_written_is_refused_before_any_work(rigid, monkeyp
 def test_play_that_takes_its_time_shows_a_bar_and_ends_in_the_same_numbers(
     rigid, toy_options, monkeypatch
 ):
-    from rigid.commands import progress
+    from rigid.commands.terminal import progress
 
     command = ("evaluate", *toy_options, "--episodes", 5, "--seed", 2, "--json")
     _, quick, _ = rigid(*command)

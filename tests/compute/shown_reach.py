@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 
-from rigid.compute.checkpoint import load_arrays, save_arrays
+from rigid.compute.run.checkpoint import load_arrays, save_arrays
 from rigid.tasks import registry
 from tests.compute.tiny import FilmedReach
 

@@ -8,7 +8,7 @@ import shutil
 import numpy as np
 import pytest
 
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.frontier.result import load_frontier
 from rigid.report import gather as gathering

@@ -10,8 +10,8 @@ import onnx
 import pytest
 from onnx import helper, numpy_helper
 
-from rigid.compute.processes import Processes
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.executors.processes import Processes
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from tests.compute.tiny import Notes, measure_tiny, without_times
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import pytest
 
-from rigid.compute.executors import Local
+from rigid.compute.executors.executor import Local
 from rigid.compute.measurement import measure_each
 from rigid.compute.preparation import lambdas_of, seeds_of, settings_for
 from rigid.compute.robot_run import Order

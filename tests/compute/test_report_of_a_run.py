@@ -9,7 +9,7 @@ import shutil
 import numpy as np
 import pytest
 
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.frontier.curve import hull_at
 from rigid.frontier.result import Frontier, load_frontier

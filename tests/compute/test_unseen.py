@@ -8,7 +8,7 @@ import shutil
 import pytest
 
 from rigid.compute.evaluation import evaluate
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.compute.unseen import UNSEEN_SEED, play_unseen
 from rigid.errors import UserError
 from rigid.frontier.result import load_frontier

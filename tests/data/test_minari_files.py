@@ -11,7 +11,7 @@ from gymnasium import spaces
 from minari.data_collector.episode_buffer import EpisodeBuffer
 from minari.dataset.minari_storage import MinariStorage
 
-from rigid.compute.completing import complete
+from rigid.compute.people.completing import complete
 from rigid.data.about import About, EpisodeNote
 from rigid.data.csv_files import beside_csv, write_csv
 from rigid.data.episodes import data_hash

@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from rigid.compute.run_directory import alone_in
+from rigid.compute.run.directory import alone_in
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier, lacking, load_frontier, measured_points
 from rigid.policies.native import CARD_FILE

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from rigid.compute.checkpoint import load_tree, save_tree
+from rigid.compute.run.checkpoint import load_tree, save_tree
 from rigid.learning import adversary as adversaries
 from rigid.learning.adversary import (
     Experience,

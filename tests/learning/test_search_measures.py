@@ -8,7 +8,7 @@ import jax
 import numpy as np
 import pytest
 
-from rigid.compute.checkpoint import load_tree, save_tree
+from rigid.compute.run.checkpoint import load_tree, save_tree
 from rigid.learning.adversary import own_scores, start_adversary, train_iteration
 from rigid.learning.group_play import Opponent
 from rigid.learning.rollout import play, policy_actor

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from rigid.compute.checkpoint import load_tree, save_tree
+from rigid.compute.run.checkpoint import load_tree, save_tree
 from rigid.learning.adversary_settings import AdversarySettings
 from rigid.learning.conditioned import Sharing
 from rigid.learning.group_play import Opponent, play_group

@@ -4,7 +4,7 @@ import jax
 import numpy as np
 import pytest
 
-from rigid.compute.scoring import naturalness_of, seen_by_referee
+from rigid.compute.search.scoring import naturalness_of, seen_by_referee
 from rigid.data.recording import record
 from rigid.learning.rollout import play, policy_actor
 from rigid.naturalness.panel import Fold, train_panel

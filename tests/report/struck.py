@@ -5,7 +5,7 @@ import json
 import mujoco
 import numpy as np
 
-from rigid.compute.checkpoint import save_arrays
+from rigid.compute.run.checkpoint import save_arrays
 from rigid.report.motion import Shown, read_motion
 from rigid.tasks.bodies import jaco, scratcher
 from tests.tasks.scripted import posed

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rigid.compute.doctor import Diagnosis
+from rigid.compute.doctor.domain import Diagnosis
 from rigid.doctor.data import check_data
 from rigid.doctor.ends import End, check_ends
 from rigid.doctor.features import check_features

@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from rigid.compute.discriminator_files import Discriminators, file_of
+from rigid.compute.search.discriminator_files import Discriminators, file_of
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier
 from rigid.report.discriminators import discriminators

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rigid.cli import run
-from rigid.commands.study_piloting import table
+from rigid.commands.study.piloting import table
 from rigid.errors import UserError
 from rigid.study.judging.answers import _passed
 from rigid.study.judging.questions import SCALES, SIDES

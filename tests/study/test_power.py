@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rigid.commands.study_power_tables import grid, smallest_lines
+from rigid.commands.study.power_tables import grid, smallest_lines
 from rigid.study.bounds import chance, players_needed, smallest_for, upper_bound
 from rigid.study.power import ChoiceDesign, Power, ScaleDesign, Size, power, smallest
 

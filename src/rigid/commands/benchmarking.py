@@ -58,8 +58,8 @@ class BenchCommand:
 def _measured(options: BenchCommand) -> dict[str, Any]:
     from rich.console import Console
 
-    from rigid.compute import bench
-    from rigid.compute.assistive_gym import beside_assistive_gym
+    from rigid.compute.speed import bench
+    from rigid.compute.speed.assistive_gym import beside_assistive_gym
 
     console = Console(stderr=True)
 
@@ -85,9 +85,9 @@ def _measured(options: BenchCommand) -> dict[str, Any]:
 def _growth(repeats: int, say: Callable[[str], None]) -> dict[str, Any]:
     from tempfile import TemporaryDirectory
 
-    from rigid.compute.bench import group_inputs
-    from rigid.compute.growth import measured_growth
-    from rigid.compute.growth_lambdas import time_of_twice_the_lambdas
+    from rigid.compute.speed.bench import group_inputs
+    from rigid.compute.speed.growth import measured_growth
+    from rigid.compute.speed.growth_lambdas import time_of_twice_the_lambdas
     from rigid.presets import PRESETS
 
     found, twice = measured_growth(say), {}

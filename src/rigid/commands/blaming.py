@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import tyro
 
 from rigid.commands.naming import MeasuredTaskOptions, OpeningOptions
-from rigid.commands.stopping import goes_on
+from rigid.commands.terminal.stopping import goes_on
 
 _shown_as = tyro.conf.arg
 
@@ -38,7 +38,7 @@ class BlameCommand(OpeningOptions, MeasuredTaskOptions):
 
     def run(self) -> int:
         """Trains the responses and prints what they say."""
-        from rigid.commands.progress import TerminalListener
+        from rigid.commands.terminal.progress import TerminalListener
         from rigid.compute.blame import FILE, blame
 
         file = self.directory / FILE

@@ -12,8 +12,8 @@ import tyro
 
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import at_least, parse_seeds
-from rigid.commands.stopping import goes_on
-from rigid.commands.wrapping import tell
+from rigid.commands.terminal.stopping import goes_on
+from rigid.commands.terminal.wrapping import tell
 
 _shown_as = tyro.conf.arg
 
@@ -52,9 +52,9 @@ class CalibrateCommand(PairOptions):
         seeds = parse_seeds(self.seeds)
         if self.iterations is not None:
             at_least("--iterations", self.iterations, 1)
-        from rigid.commands.progress import TerminalListener
+        from rigid.commands.terminal.progress import TerminalListener
         from rigid.compute.calibration import calibrate
-        from rigid.compute.executors import find_executor
+        from rigid.compute.executors.executor import find_executor
         from rigid.compute.subject import Subject
         from rigid.files import make_room
         from rigid.presets import find_preset

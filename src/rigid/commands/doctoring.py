@@ -13,7 +13,7 @@ import tyro
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_budget
 from rigid.commands.ranging import RangeOptions
-from rigid.commands.stopping import goes_on
+from rigid.commands.terminal.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -63,8 +63,8 @@ class DoctorCommand(RangeOptions, PairOptions):
             raise UserError("--human is the human of a --robot: name both, or neither")
         if self.canonical and not self.robot:
             raise UserError("--canonical needs the --robot that it was recorded with")
-        from rigid.commands.progress import TerminalListener
-        from rigid.compute.doctor import check_doctor_place, doctor_preset, examine
+        from rigid.commands.terminal.progress import TerminalListener
+        from rigid.compute.doctor.domain import check_doctor_place, doctor_preset, examine
         from rigid.report.doctor_page import write_doctor_page
 
         task = self.open_task()
@@ -87,7 +87,7 @@ class DoctorCommand(RangeOptions, PairOptions):
 
         robot, human = self.robot, self.human or "builtin:synthetic-human"
         if not robot:
-            from rigid.commands.training_progress import show_progress
+            from rigid.commands.train.progress import show_progress
             from rigid.robots.short_pair import train_short_pair
 
             robot, human = train_short_pair(task, self.out, showing=show_progress)
@@ -99,8 +99,8 @@ class DoctorCommand(RangeOptions, PairOptions):
     def _fitted(self, preset: Preset, task: Task, seconds: float) -> Preset:
         """The preset that `--budget` stands for; a search that was begun keeps its own."""
         from rigid.compute.budget import fit_to, stored_preset, training_speed
-        from rigid.compute.doctor import SEARCH
-        from rigid.compute.doctor_steps import LAMBDAS
+        from rigid.compute.doctor.domain import SEARCH
+        from rigid.compute.doctor.steps import LAMBDAS
 
         stored = stored_preset(self.out / SEARCH, preset)
         if stored is not None:

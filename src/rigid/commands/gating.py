@@ -11,7 +11,7 @@ import tyro
 
 from rigid.commands.measured import load_measured
 from rigid.commands.parsing import printable
-from rigid.commands.wrapping import NO_BREAK, columns, wrapped
+from rigid.commands.terminal.wrapping import NO_BREAK, columns, wrapped
 from rigid.errors import UserError
 
 if TYPE_CHECKING:

@@ -28,7 +28,7 @@ def load_measured(directory: Path) -> tuple[Frontier, Mapping[str, Any]]:
     Raises:
         UserError: It is unfinished or damaged.
     """
-    from rigid.compute.run_directory import RunDirectory, read_settings
+    from rigid.compute.run.directory import RunDirectory, read_settings
     from rigid.frontier.result import load_frontier
 
     frontier = load_frontier(directory)

@@ -13,7 +13,7 @@ import tyro
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_budget, parse_lambdas, parse_seeds
 from rigid.commands.ranging import RangeOptions
-from rigid.commands.stopping import goes_on
+from rigid.commands.terminal.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ class ReportCommand:
 
 def _draw(frontier: Frontier, out: Path | None = None) -> Path:
     """Writes the report, with a bar: it plays two episodes of each adversary again."""
-    from rigid.commands.progress import TerminalListener
+    from rigid.commands.terminal.progress import TerminalListener
     from rigid.report.gather import write_report
 
     with TerminalListener("drawing the report") as listener:
@@ -115,7 +115,7 @@ def _measure(options: FrontierCommand) -> int:
     seeds, lambdas = parse_seeds(options.seeds), parse_lambdas(options.lambdas)
     budget = parse_budget(options.budget)
     from rigid.api import measure
-    from rigid.commands.progress import TerminalListener
+    from rigid.commands.terminal.progress import TerminalListener
     from rigid.presets import find_preset
 
     task = options.open_task()
@@ -155,7 +155,7 @@ def _fitted(
 ) -> Preset:
     """The preset that `--budget` stands for; what was begun keeps its own."""
     from rigid.compute.budget import fit_to, stored_preset, training_speed
-    from rigid.compute.run_directory import check_place
+    from rigid.compute.run.directory import check_place
 
     stored = stored_preset(options.out, preset)
     if stored is not None:  # Its seeds stay, and those that the user names join them.
@@ -171,7 +171,7 @@ def _fitted(
 
 def headline(frontier: Frontier, report: Path) -> str:
     """What the terminal shows at the end."""
-    from rigid.commands.wrapping import columns, wrapped
+    from rigid.commands.terminal.wrapping import columns, wrapped
     from rigid.compute.return_range import spoken_range
 
     data, width = frontier.data, columns()

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
-from rigid.commands.helping import several
 from rigid.commands.parsing import at_least, printable
-from rigid.commands.wrapping import show, tell
+from rigid.commands.terminal.helping import several
+from rigid.commands.terminal.wrapping import show, tell
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
@@ -57,8 +57,8 @@ class PairsCommand:
 
     def run(self) -> int:
         """Picks, writes and prints."""
-        from rigid.commands.progress import counted
-        from rigid.compute.pairing import PairOrder, pick_pairs
+        from rigid.commands.terminal.progress import counted
+        from rigid.compute.pairs.picking import PairOrder, pick_pairs
         from rigid.data.pair_file import save_pairs
         from rigid.files import make_room, writing_to
 

@@ -14,7 +14,7 @@ from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import at_least, parse_expected
 from rigid.commands.places import file_played_again
 from rigid.commands.ranging import RangeOptions
-from rigid.commands.wrapping import tell
+from rigid.commands.terminal.wrapping import tell
 
 if TYPE_CHECKING:
     from rigid.policies.protocol import Policy
@@ -44,7 +44,7 @@ class RecordCommand(_PlayOptions):
 
     def run(self) -> int:
         """Plays and stores the episodes."""
-        from rigid.commands.progress import playing
+        from rigid.commands.terminal.progress import playing
         from rigid.data.episodes import save_episodes
         from rigid.data.recording import BATCH, record
         from rigid.files import writing_to
@@ -86,7 +86,7 @@ class EvaluateCommand(RangeOptions, _PlayOptions):
 
     def run(self) -> int:
         """Plays and prints."""
-        from rigid.commands.progress import playing
+        from rigid.commands.terminal.progress import playing
         from rigid.compute.evaluation import BLOCK, evaluate
         from rigid.compute.return_range import find_return_range, range_in_force, spoken_range
         from rigid.policies.loading import load_policy

@@ -14,11 +14,11 @@ import tyro
 
 from rigid.commands.naming import PairOptions
 from rigid.commands.parsing import parse_seeds
-from rigid.commands.stopping import goes_on
+from rigid.commands.terminal.stopping import goes_on
 from rigid.errors import UserError
 
 if TYPE_CHECKING:
-    from rigid.compute.verdict import Verdict
+    from rigid.compute.referee.verdict import Verdict
 
 _shown_as = tyro.conf.arg
 
@@ -48,8 +48,8 @@ class RefereeCommand(PairOptions):
         if not self.check:
             raise UserError("rigid referee has nothing to do: give --check")
         seeds = parse_seeds(self.seeds)
-        from rigid.commands.progress import TerminalListener
-        from rigid.compute.referee_gates import check_referee
+        from rigid.commands.terminal.progress import TerminalListener
+        from rigid.compute.referee.gates import check_referee
         from rigid.compute.subject import Subject
         from rigid.presets import find_preset
 

@@ -33,8 +33,8 @@ class VerifyCommand:
     def run(self) -> int:
         """Trains, compares and prints."""
         chosen = parse_lambdas(self.lambdas)
-        from rigid.commands.progress import TerminalListener
-        from rigid.compute.verifying import plan_verification
+        from rigid.commands.terminal.progress import TerminalListener
+        from rigid.compute.verification.plan import plan_verification
         from rigid.files import json_text, make_room, write_atomically, writing_to
 
         if self.json is not None:

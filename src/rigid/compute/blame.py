@@ -13,7 +13,7 @@ from typing import Any
 
 from rigid.compute.evaluation import evaluate
 from rigid.compute.return_range import stored_range
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.compute.subject import measured_robot, measured_task
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically

@@ -17,12 +17,12 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from rigid.compute.executors import Executor
+from rigid.compute.executors.executor import Executor
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
-from rigid.compute.provenance import command_line, provenance
 from rigid.compute.return_range import FORMAT, ReturnRange
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
+from rigid.compute.run.provenance import command_line, provenance
 from rigid.compute.subject import Subject, canonical_path, load_players
 from rigid.data.episodes import load_episodes
 from rigid.data.recording import record

@@ -6,11 +6,11 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing
 from pathlib import Path
 
-from rigid.compute.executors import Executor, on_this_machine
+from rigid.compute.executors.executor import Executor, on_this_machine
 from rigid.compute.listening import Listener, Silence
 from rigid.compute.preparation import settings_for
 from rigid.compute.robot_run import Order, RobotRun, begin
-from rigid.compute.seed_search import SeedSearch
+from rigid.compute.search.seed_search import SeedSearch
 from rigid.compute.subject import Subject
 from rigid.compute.threads import fix_xla_threads
 from rigid.frontier.result import Frontier, load_frontier

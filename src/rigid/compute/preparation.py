@@ -19,10 +19,10 @@ from rigid.compute.canonical import (
     divide_synthetic,
 )
 from rigid.compute.endings import ended, measure
-from rigid.compute.identity import identity_of
 from rigid.compute.playing import play_in_turns, play_with
 from rigid.compute.return_range import ReturnRange, range_in_force
-from rigid.compute.scoring import Ruler, naturalness_of, seen_by_referee
+from rigid.compute.run.identity import identity_of
+from rigid.compute.search.scoring import Ruler, naturalness_of, seen_by_referee
 from rigid.compute.subject import Subject, canonical_path, load_players, stranger
 from rigid.data.episodes import CanonicalEpisodes, load_episodes
 from rigid.data.recording import record

@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 
 from rigid.compute.budget import COMPILING_SECONDS, working_speed
-from rigid.compute.clock import Clock
-from rigid.compute.discriminators import write_discriminators
-from rigid.compute.group import json_lambda
-from rigid.compute.group_plan import GroupInputs, GroupPlan, all_steps, training_steps
-from rigid.compute.identity import settings_identity
 from rigid.compute.listening import Listener, Silence, Workload
 from rigid.compute.preparation import Prepared, lambdas_of, passive_reference, prepare, seeds_of
-from rigid.compute.provenance import command_line
-from rigid.compute.run_directory import OpenRun, alone_in, check_place, check_same, open_run
-from rigid.compute.seed_search import SeedSearch
+from rigid.compute.run.clock import Clock
+from rigid.compute.run.directory import OpenRun, alone_in, check_place, check_same, open_run
+from rigid.compute.run.identity import settings_identity
+from rigid.compute.run.provenance import command_line
+from rigid.compute.search.discriminators import write_discriminators
+from rigid.compute.search.group import json_lambda
+from rigid.compute.search.group_plan import GroupInputs, GroupPlan, all_steps, training_steps
+from rigid.compute.search.seed_search import SeedSearch
 from rigid.compute.subject import Subject, load_robot
 from rigid.files import json_text, write_atomically
 from rigid.frontier.result import load_frontier, measured_points

@@ -127,7 +127,7 @@ def load_frontier(directory: Path | str) -> Frontier:
 
 def _refuse_what_is_no_run(folder: Path) -> None:
     """Says what a directory without a result is, where it is no measurement to be finished."""
-    from rigid.compute.run_directory import RunDirectory, is_being_measured
+    from rigid.compute.run.directory import RunDirectory, is_being_measured
 
     if is_being_measured(folder):
         raise UserError(f"{folder} is being measured right now: wait for it")

@@ -35,7 +35,7 @@ WEIGHTS_FILE = "policy.safetensors"
 CARD_FILE = "policy.json"
 
 _OF_A_RUN = "frontier.json"
-"""What marks a finished run directory: `rigid.compute.run_directory`, above this module."""
+"""What marks a finished run directory: `rigid.compute.run.directory`, above this module."""
 _CURE = "copy the policy or train it again"
 
 

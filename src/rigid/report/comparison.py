@@ -9,7 +9,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from rigid.compute.return_range import spoken_range
-from rigid.compute.run_directory import RunDirectory
+from rigid.compute.run.directory import RunDirectory
 from rigid.frontier.comparison import numbers_of
 from rigid.frontier.intervals import Interval
 from rigid.frontier.methods import Estimate

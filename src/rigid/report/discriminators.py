@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.compute.discriminator_files import Poses, file_of, load_discriminators
+from rigid.compute.search.discriminator_files import Poses, file_of, load_discriminators
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier
 from rigid.report.poses import encode_poses

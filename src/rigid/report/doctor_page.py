@@ -9,7 +9,7 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
-from rigid.compute.doctor import Diagnosis
+from rigid.compute.doctor.domain import Diagnosis
 from rigid.doctor.verdict import Verdict
 from rigid.files import write_atomically, writing_to
 from rigid.report.doctor_plots import plot_of

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final, Literal, NamedTuple
 
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.files import json_text, read_bytes, write_atomically, writing_to
 from rigid.frontier.result import Frontier, load_frontier

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from rigid.compute.checkpoint import load_arrays
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.checkpoint import load_arrays
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.files import read_bytes
 from rigid.frontier.comparison import HEADLINE_LEVEL

@@ -130,7 +130,7 @@ class Replay(TypedDict, total=False):
 
 
 class Accuracy(TypedDict):
-    """Shares of steps that a judge tells right; `rigid.compute.discriminator_files.Accuracy`."""
+    """Shares of steps that a judge tells right, as `rigid.compute.search` finds them."""
 
     canonical: Sequence[float]
     adversaries: Mapping[str, float | None]

@@ -8,7 +8,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier, load_frontier, measured_points
 from rigid.policies.opening import SAFE, Opening

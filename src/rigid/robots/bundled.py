@@ -11,7 +11,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from rigid.commands.training_progress import show_progress
+from rigid.commands.train.progress import show_progress
 from rigid.learning.cooptimisation import CoOptimisationSettings
 from rigid.learning.personalisation import PersonalisationSettings
 from rigid.presets import PRESETS

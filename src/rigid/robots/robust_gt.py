@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.compute.subject import measured_robot, measured_task
 from rigid.errors import UserError
 from rigid.frontier.result import Frontier, load_frontier

@@ -15,7 +15,7 @@ from pathlib import Path
 from rigid.compute.listening import Listener
 from rigid.compute.measurement import measure_robot
 from rigid.compute.return_range import stored_range
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.compute.subject import Subject
 from rigid.frontier.result import load_frontier
 from rigid.policies.native import CARD_FILE

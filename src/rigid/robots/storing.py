@@ -16,7 +16,7 @@ from typing import Any, Protocol, TypeVar, runtime_checkable
 import jax.numpy as jnp
 
 from rigid._version import __version__
-from rigid.compute.checkpoint import load_tree, save_tree
+from rigid.compute.run.checkpoint import load_tree, save_tree
 from rigid.compute.subject import CANONICAL_FILE
 from rigid.data.episodes import save_episodes
 from rigid.data.recording import record

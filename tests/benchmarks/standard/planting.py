@@ -9,7 +9,7 @@ from dataclasses import replace
 from benchmarks.robots import OWN_HUMAN, RobotPlan
 from benchmarks.standard import running
 from benchmarks.standard.plan import PLAN, Robot
-from rigid.compute.run_directory import open_run
+from rigid.compute.run.directory import open_run
 from rigid.policies.loading import BUNDLED, load_policy, policy_hash
 from tests.benchmarks.standard.samples import frontier
 

@@ -15,8 +15,8 @@ from benchmarks.standard.work import (
     training_seconds,
     work_of,
 )
-from rigid.compute.executors import Local
-from rigid.compute.processes import Processes
+from rigid.compute.executors.executor import Local
+from rigid.compute.executors.processes import Processes
 from rigid.cores import cores
 from tests.benchmarks.standard.planting import SMALL, VANILLA, store_robot
 

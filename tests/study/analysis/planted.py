@@ -7,7 +7,7 @@ from pathlib import Path
 import jax.numpy as jnp
 import numpy as np
 
-from rigid.compute.pair_members import MeasuredRun
+from rigid.compute.pairs.members import MeasuredRun
 from rigid.frontier.result import Frontier
 from rigid.naturalness.features import choose_features
 from rigid.naturalness.panel import Jury

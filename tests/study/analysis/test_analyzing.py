@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from rigid.commands.study_analyzing import AnalyzeCommand
+from rigid.commands.study.analyzing import AnalyzeCommand
 from rigid.data.pair_file import save_pairs
 from rigid.errors import UserError
 from rigid.study.plan import JudgeStage, Role

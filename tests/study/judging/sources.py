@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rigid.compute.checkpoint import save_arrays
+from rigid.compute.run.checkpoint import save_arrays
 from rigid.data.episodes import save_episodes
 from rigid.data.pair_file import (
     FoundMember,

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from rigid.cli import run
-from rigid.commands.study_exporting import ExportCommand, WithdrawCommand
+from rigid.commands.study.exporting import ExportCommand, WithdrawCommand
 from rigid.compute.canonical import divide_recorded
-from rigid.compute.pair_recorded import read_recordings
+from rigid.compute.pairs.recordings import read_recordings
 from rigid.data.checking import judge_file
 from rigid.data.episodes import load_episodes
 from rigid.errors import UserError

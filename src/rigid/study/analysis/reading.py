@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rigid.compute.checkpoint import load_arrays
-from rigid.compute.pair_members import MeasuredRun, read_run
-from rigid.compute.recorded import stored_panels
-from rigid.compute.run_directory import RunDirectory
+from rigid.compute.pairs.members import MeasuredRun, read_run
+from rigid.compute.people.recorded import stored_panels
+from rigid.compute.run.checkpoint import load_arrays
+from rigid.compute.run.directory import RunDirectory
 from rigid.data.pair_file import PairFile, file_hash, load_pairs
 from rigid.errors import UserError
 from rigid.files import first_difference

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from jaxtyping import Int
 
-from rigid.compute.recorded import replay_recording, reproduced
+from rigid.compute.people.recorded import replay_recording, reproduced
 from rigid.compute.subject import Subject, canonical_path
 from rigid.data.episodes import CanonicalEpisodes, data_hash, load_episodes
 from rigid.data.recording import record

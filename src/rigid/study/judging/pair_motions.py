@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from rigid.compute.checkpoint import load_arrays
-from rigid.compute.recorded import replay_recording
-from rigid.compute.run_directory import RunDirectory, read_settings
+from rigid.compute.people.recorded import replay_recording
+from rigid.compute.run.checkpoint import load_arrays
+from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.compute.subject import measured_robot
 from rigid.data.episodes import load_episodes
 from rigid.data.pair_file import (

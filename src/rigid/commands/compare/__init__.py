@@ -1,0 +1,1 @@
+"""`rigid compare`: robots, or ways of making them, against each other."""

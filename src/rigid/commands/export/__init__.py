@@ -1,0 +1,1 @@
+"""`rigid export`: films, figures and policies for other programs."""

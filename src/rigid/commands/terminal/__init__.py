@@ -1,0 +1,1 @@
+"""What people see while a command runs: help, progress, text in whole lines."""

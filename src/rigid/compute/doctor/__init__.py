@@ -1,0 +1,1 @@
+"""What the verdicts on a new domain are made of: `rigid doctor`."""

@@ -1,0 +1,140 @@
+"""Groups in processes of this machine, one for each core.
+
+Half of a group's work does not divide among threads. Two processes with a core each therefore do
+more than one process with two (docs/scaling.md), and their groups end in the same numbers.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Generator, Iterable, Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from pickle import PicklingError
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from rigid.compute.executors.driving import drive
+from rigid.compute.executors.process_worker import (
+    Progress,
+    progress_file,
+    read_progress,
+    settle,
+    work,
+)
+from rigid.compute.search.group_plan import GroupPlan
+from rigid.compute.search.seed_search import SeedSearch
+from rigid.cores import cores
+from rigid.errors import UserError
+
+_PATIENCE = 0.5  # Seconds until the next look at what workers say.
+
+
+def can_be_sent(thing: Any) -> bool:
+    """Whether another process can be given it."""
+    import cloudpickle
+
+    try:
+        cloudpickle.dumps(thing)
+    except (PicklingError, TypeError, AttributeError):  # What pickle says of what it cannot take.
+        return False
+    return True
+
+
+@dataclass(frozen=True)
+class Processes:
+    """So many worker processes; they start with the first group, and end with the measurement."""
+
+    count: int
+
+    @contextmanager
+    def workers(self) -> Iterator[ProcessWorkers]:
+        """Starts them, and ends them also in the middle of a group."""
+        from loky import ProcessPoolExecutor
+
+        with TemporaryDirectory(prefix="rigid-") as desk:
+            settling = (Path(desk), cores()[: self.count])
+            pool = ProcessPoolExecutor(self.count, initializer=settle, initargs=settling)
+            try:
+                yield ProcessWorkers(self.count, pool)
+            finally:
+                pool.shutdown(kill_workers=True)
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Keeps Ctrl-C until the end of the block, and for good from processes that start in it.
+
+    The terminal sends it to all of them, and who still loads modules would answer with a traceback.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class ProcessWorkers:
+    """Processes that are ready for groups."""
+
+    def __init__(self, count: int, pool: Any) -> None:
+        self.count, self._pool = count, pool
+        self.description: str | None = f"{count} processes, a core for each"
+        self._heard: dict[Future[None], Progress] = {}
+
+    def run(self, searches: Iterable[SeedSearch]) -> Generator[SeedSearch, None, None]:
+        """Runs searches side by side."""
+        return drive(searches, self)
+
+    @property
+    def asked_for(self) -> int:
+        """One more than there are processes, so that none idles while a robot is prepared."""
+        return self.count + 1
+
+    def send(self, search: SeedSearch, plan: GroupPlan) -> Future[None]:
+        """Hands a group to the next free process."""
+        progress_file(search.inputs.directory, plan).unlink(missing_ok=True)  # Of an earlier one.
+        with _interrupts_held():
+            future: Future[None] = self._pool.submit(work, search.inputs, plan, os.getpid())
+        self._heard[future] = Progress()
+        return future
+
+    def next_done(
+        self, waiting: Mapping[Future[None], tuple[SeedSearch, GroupPlan]]
+    ) -> Future[None] | None:
+        """A group that is done; None when none is for a while."""
+        done, _ = wait(waiting, timeout=_PATIENCE, return_when=FIRST_COMPLETED)
+        for future, (search, plan) in waiting.items():
+            self._hear(future, search, plan)
+        return next(iter(done), None)
+
+    def collect(self, done: Future[None], search: SeedSearch, plan: GroupPlan) -> None:
+        """Takes its points; its files are where they belong."""
+        from loky.process_executor import TerminatedWorkerError
+
+        directory = search.inputs.directory
+        try:
+            done.result()
+        except TerminatedWorkerError:
+            raise UserError(
+                f"the process of group {plan.name} of {directory} was killed, perhaps for want of "
+                "memory: the same command goes on"
+            ) from None
+        self._hear(done, search, plan)
+        progress_file(directory, plan).unlink(missing_ok=True)
+        search.take_stored(plan)
+        search.clock.keep()
+
+    def cancel(self, waiting: Mapping[Future[None], Any]) -> None:
+        """The processes end with the pool."""
+
+    def _hear(self, future: Future[None], search: SeedSearch, plan: GroupPlan) -> None:
+        """Passes on what a worker did since it was last heard."""
+        before, now = self._heard[future], read_progress(search.inputs.directory, plan)
+        self._heard[future] = now
+        search.clock.add(now.core_seconds - before.core_seconds)
+        if now.env_steps > before.env_steps:
+            search.advance(now.env_steps - before.env_steps)

@@ -1,0 +1,1 @@
+"""Pairs of episodes for people to judge: `rigid pairs`."""

@@ -1,0 +1,1 @@
+"""What people did, as it was recorded: judged, completed, learned from."""

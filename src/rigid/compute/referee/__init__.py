@@ -1,0 +1,1 @@
+"""The referees on disk, and whether they may be believed: `rigid referee --check`."""

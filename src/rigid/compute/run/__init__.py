@@ -1,0 +1,1 @@
+"""A run directory: what belongs to one measurement, whose it is, and how it goes on."""

@@ -1,0 +1,1 @@
+"""How fast RIGID is and what grows with what: `rigid bench`."""

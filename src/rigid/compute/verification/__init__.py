@@ -1,0 +1,1 @@
+"""Learning against numbers that were computed without it: `rigid verify`."""
