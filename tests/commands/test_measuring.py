@@ -82,7 +82,7 @@ def test_the_headline_says_where_canonical_play_stands_for_humans_that_were_not_
         for points in (far, near)
     ]
     assert "0 of 2 seeds found a human at naturalness ≥ 0.9: in all of them canonical" in texts[0]
-    assert "1 of 2 seeds found a human at naturalness ≥ 0.9; in the others canonical" in texts[1]
+    assert "1 of 2 seeds found a human at naturalness ≥ 0.9; in the other canonical" in texts[1]
 
 
 def test_other_settings_exit_with_2_and_the_first_difference(frontier, small_run):

@@ -93,7 +93,8 @@ def lacking(found: int, searches: int, level: float, *, called: str = "seeds") -
         return None
     if searches == 1:
         return f"the seed found no human at naturalness ≥ {level:g}: canonical play stands there"
-    where = "; in the others" if found else ": in all of them"
+    others = "other" if searches - found == 1 else "others"
+    where = f"; in the {others}" if found else ": in all of them"
     return (
         f"{found} of {searches} {called} found a human at naturalness ≥ {level:g}{where} canonical "
         "play stands there"
