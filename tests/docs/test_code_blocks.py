@@ -37,7 +37,7 @@ NOT_RUN = {
     "docs/scaling.md": 2,
     "docs/study.md": 2,
     "docs/tasks.md": 4,
-    "docs/tutorial.md": 2,
+    "docs/tutorial.md": 3,
 }
 """How many blocks of each page are marked as not run: a new one has to be counted here."""
 

@@ -109,6 +109,17 @@ def test_a_report_without_motion_invites_nobody_to_watch_and_shows_numbers_besid
         assert numbers["y"] < chart["y"] + chart["height"]
 
 
+def test_a_human_without_a_stored_episode_cannot_be_played(visit, sample_payload, tmp_path):
+    payload = sample_payload(seeds=1, replays=1)
+    played = worst_natural(payload)
+    points = [point["id"] for point in payload["frontier"]["points"]]
+    other = next(name for name in points if name != played)
+    with visit(build_report(payload, tmp_path / "report.html")) as page:
+        for name, playable in ((other, False), (played, True)):
+            page.locator(f'.frontier-chart [data-id="{name}"]').dispatch_event("click")
+            assert page.get_by_role("button", name="Play").is_enabled() == playable
+
+
 def test_a_task_with_outcomes_of_its_own_and_without_forces_shows_what_it_has(
     visit, sample_payload, tmp_path
 ):

@@ -204,6 +204,25 @@ def test_play_goes_on_until_pause(page, payload):
     assert page.locator(".time").inner_text() == stopped
 
 
+def test_a_chosen_human_is_shown_at_its_telling_moment_and_played_from_its_start(page, payload):
+    for chosen in ("passive", worst_natural(payload)):  # Who is shown already is not opened anew.
+        mark(page, chosen).dispatch_event("click")
+    assert page.locator(".time").inner_text() != "0.0 s"
+    started = page.get_by_role("button", name="Play").evaluate(
+        "button => { button.click(); return document.querySelector('.time').textContent; }"
+    )
+    assert started == "0.0 s"
+
+
+def test_play_goes_on_from_a_moment_that_somebody_went_to(page, payload):
+    mark(page, worst_natural(payload)).dispatch_event("click")
+    page.get_by_label("Time").fill("40")
+    started = page.get_by_role("button", name="Play").evaluate(
+        "button => { button.click(); return document.querySelector('.time').textContent; }"
+    )
+    assert started == "4.0 s"
+
+
 def test_forces_of_the_papers_servo_are_marked_not_physical(page):
     assert "not physical" in page.locator(".details").inner_text()
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rigid.report.motion import read_motion, tip_of
-from rigid.report.viewpoint import Viewpoint, facing, viewpoint_for
+from rigid.report.viewpoint import Viewpoint, centres, facing, viewpoint_for
 
 AHEAD = Viewpoint(np.array([0.0, -2, 0]), np.zeros(3))
 """Looks along y; x is to the right."""
@@ -52,6 +52,16 @@ def test_robot_tip_and_itch_are_in_the_picture(filmed):
         assert (x < 800).all()
         assert (y > 0).all()
         assert (y < 600).all()
+
+
+def test_the_top_of_the_head_is_in_the_picture(filmed):
+    scene, motions = filmed
+    head = max(scene["geoms"], key=lambda geom: geom["role"] == "human" and geom["pos"][2])
+    for motion in motions:
+        human = centres(scene, motion, "human")
+        top = human[human[:, 2].argmax()] + [0, 0, max(head["size"])]
+        ((_, y),) = viewpoint_for(scene, motion).project(top[np.newaxis], 800, 600)
+        assert y > 0
 
 
 def test_the_camera_stands_before_the_person_and_above(filmed):

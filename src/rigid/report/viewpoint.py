@@ -22,6 +22,8 @@ _FILLED = 0.78
 """How much of the box around all that matters has to fit, by radius; its corners are empty."""
 _UPPER_BODY = 0.15
 """So far below the action the person still matters [m]; legs do not."""
+_HEAD = 0.16
+"""From the middle of a head to above its top [m]; people look for faces first."""
 
 
 @dataclass(frozen=True)
@@ -66,14 +68,23 @@ def viewpoint_for(scene: Mapping[str, Any], motion: Motion, *, aspect: float = 4
     focus = (action if len(action) else everything).mean(axis=0)
 
     side = _side(human, start)
-    near = np.concatenate([robot, human[human[:, 2] > focus[2] - _UPPER_BODY], action])
+    upper = human[human[:, 2] > focus[2] - _UPPER_BODY]
+    near = np.concatenate([robot, upper, action])
     box = near if len(near) else everything
     low, high = box.min(axis=0), box.max(axis=0)
     target = 0.55 * (low + high) / 2 + 0.45 * focus
     radius = _FILLED * max(float(np.linalg.norm(high - low)) / 2, 0.1)
     direction = np.append(np.cos(_ELEVATION) * side, np.sin(_ELEVATION))
     distance = radius / np.sin(np.deg2rad(FIELD_OF_VIEW / 2)) / min(aspect, 1.0)
+    distance = max(distance, _far_enough(upper + (0.0, 0.0, _HEAD) - target, direction))
     return Viewpoint(target + distance * direction, target)
+
+
+def _far_enough(points: Float[np.ndarray, "n 3"], direction: Float[np.ndarray, "3"]) -> float:
+    """Least distance from which points, relative to the target, lie below the picture's top."""
+    up = _unit(np.array([0.0, 0.0, 1.0]) - direction[2] * direction)
+    slope = np.tan(np.deg2rad(FIELD_OF_VIEW / 2))
+    return float(max(points @ (up / slope + direction), default=0.0))
 
 
 def centres(

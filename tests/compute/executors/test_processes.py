@@ -5,7 +5,10 @@ from __future__ import annotations
 import os
 import signal
 from pathlib import Path
+from select import PIPE_BUF
 
+import cloudpickle
+import loky
 import pytest
 
 from rigid.compute.executors.executor import WORTH_PROCESSES, Local, on_this_machine
@@ -42,11 +45,25 @@ def interrupted(base, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def resumed(base, interrupted):
+def sent():
+    """Bytes of what was sent to processes."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def resumed(base, interrupted, sent):
     """The same measurement, gone on with in two processes."""
     notes = Notes()
     out, _ = interrupted
-    return measure_tiny(base, out, executor=Processes(2), listener=notes), notes
+    submit = loky.ProcessPoolExecutor.submit
+
+    def noted(pool, *what):
+        sent.append(len(cloudpickle.dumps(what)))
+        return submit(pool, *what)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(loky.ProcessPoolExecutor, "submit", noted)
+        return measure_tiny(base, out, executor=Processes(2), listener=notes), notes
 
 
 def test_a_process_that_is_killed_is_named_with_the_cure(interrupted):
@@ -62,6 +79,13 @@ def test_processes_leave_the_numbers_and_files_of_a_single_process(base, resumed
     alone = measured_once(base, "alone", executor=Local())
     assert without_times(frontier) == without_times(alone)
     assert files_of(frontier.directory) | {Path("report.html")} == files_of(alone.directory)
+
+
+@pytest.mark.usefixtures("resumed")
+def test_what_is_sent_fits_a_pipe_that_nobody_empties(sent):
+    """Else a thread waits in it when the processes are killed, and never gives back its locks."""
+    assert sent
+    assert max(sent) < PIPE_BUF
 
 
 def test_every_step_is_told_and_their_time_counted(resumed):

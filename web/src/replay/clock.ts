@@ -11,11 +11,13 @@ export class Clock {
   #frames = 1;
   #dt = 0.1;
   #last = 0;
+  #still = false;
 
-  /** Takes the length of an episode: `frames` of `dt` seconds. */
+  /** Takes the length of an episode: `frames` of `dt` seconds. It shows `time`, and plays from the beginning. */
   load(frames: number, dt: number, time: number): void {
     this.#frames = Math.max(1, frames);
     this.#dt = dt > 0 ? dt : 0.1;
+    this.#still = true;
     this.time.value = Math.min(Math.max(time, 0), this.#frames - 1);
   }
 
@@ -31,6 +33,7 @@ export class Clock {
   /** Goes to a moment and stays there. */
   seek(time: number): void {
     this.pause();
+    this.#still = false;
     this.time.value = Math.min(Math.max(time, 0), this.#frames - 1);
   }
 
@@ -39,10 +42,11 @@ export class Clock {
     else this.play();
   }
 
-  /** Plays on; from the beginning when at the end. */
+  /** Plays on; from the beginning when at the end, or where nobody has gone to a moment yet. */
   play(): void {
     if (this.playing.value) return;
-    if (this.time.value >= this.#frames - 1) this.time.value = 0;
+    if (this.#still || this.time.value >= this.#frames - 1) this.time.value = 0;
+    this.#still = false;
     this.playing.value = true;
     this.#last = performance.now();
     requestAnimationFrame((now) => this.#tick(now));

@@ -12,6 +12,8 @@ export const FIELD_OF_VIEW = 32;
 const ELEVATION = MathUtils.degToRad(24);
 /** Turned from square-on, so that depth is read [rad]. */
 const TURN = MathUtils.degToRad(24);
+/** From the middle of a head to above its top [m]; people look for faces first. */
+const HEAD = 0.16;
 
 /** Centres of the geoms of a role at some moments [share of the episode]. */
 export function centersOf(scene: Scene, clip: Clip, role: string, shares: readonly number[]): Vector3[] {
@@ -44,6 +46,12 @@ function action(scene: Scene, clip: Clip): Vector3[] {
   return paths.flatMap((path) => path ?? []).map((at) => new Vector3(...at));
 }
 
+/** Least distance from which a point, relative to the target, lies below the picture's top. */
+function farEnough(point: Vector3, direction: Vector3): number {
+  const up = new Vector3(0, 0, 1).addScaledVector(direction, -direction.z).normalize();
+  return point.dot(up) / Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2)) + point.dot(direction);
+}
+
 /**
  * A viewpoint beside the line from person to robot, on the side that the person faces, a little
  * from above, far enough for the whole robot and the person's upper body.
@@ -61,10 +69,13 @@ export function viewpointFor(scene: Scene, clip: Clip): Viewpoint {
   if (side.dot(facing(human)) < 0) side.negate();
   side.addScaledVector(across, Math.tan(TURN)).normalize();
 
-  const box = new Box3().setFromPoints([...robot, ...human.filter(({ z }) => z > focus.z - 0.15), ...contact]);
+  const upper = human.filter(({ z }) => z > focus.z - 0.15);
+  const box = new Box3().setFromPoints([...robot, ...upper, ...contact]);
   const target = box.getCenter(new Vector3()).lerp(focus, 0.45);
   const radius = 0.5 * box.getSize(new Vector3()).length() * 0.8;
-  const distance = radius / Math.sin(MathUtils.degToRad(FIELD_OF_VIEW / 2));
   const direction = side.multiplyScalar(Math.cos(ELEVATION)).setZ(Math.sin(ELEVATION));
+  const tops = upper.map(({ x, y, z }) => new Vector3(x, y, z + HEAD).sub(target));
+  const distance = Math.max(
+    radius / Math.sin(MathUtils.degToRad(FIELD_OF_VIEW / 2)), ...tops.map((top) => farEnough(top, direction)));
   return { target, position: target.clone().addScaledVector(direction, distance) };
 }

@@ -67,7 +67,7 @@ function toldFigure(
       toldPanel("Every human of this seed", humans, point.id, choose)),
     caption(
       `How often the discriminator of ${title(point)} is right. Under noise: the share of held-out canonical steps (${count(seen.canonicalEpisodes)} episodes) that it takes for canonical (D\u00a0<\u00a00: low is canonical), with noise on every feature that moves, in units of its canonical deviation σ. Of every human: the share of their steps (${count(seen.adversaryEpisodes)} episodes each) that it takes for not canonical (D\u00a0≥\u00a00). Dashed, the same of this human's referee.`,
-      "Both only learned to tell this one human (the discriminator also its neighbours, where λ share a network) from canonical motion: noise, and humans that they never met, may pass; nor is a low share a mistake where a human moves naturally. The discriminator is the search's own, a different ruler for every human; naturalness on the frontier is the referee's verdict on its own human, and on no other.",
+      "Both only learned to tell this one human (the discriminator also its neighbours, where λ share a network) from canonical motion: noise, and humans that they never met, may pass; nor is a low share a mistake where a human moves naturally. The discriminator is the search's own, a different ruler for every human; naturalness on the frontier is the referee's verdict on its own human, and on no other: the share of steps that it takes for canonical, and κ times the share of canonical steps that it does not.",
       "Choose a mark to see its discriminator.",
     ));
 }

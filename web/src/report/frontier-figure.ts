@@ -66,8 +66,9 @@ function frontierCaption(payload: Payload): HTMLElement {
   const scale = range
     ? ` Adversarialness 0 and 1 stand for returns of ${general(range[1])} and ${general(range[0])} (${rangeSource(payload.frontier)}).`
     : "";
-  const line = seedsOf(payload).length > 1 ? "the mean of the hulls of all seeds" : "the hull";
-  const frontier = `A mark that is not dominated is on the frontier: no other human is both more natural and more adversarial. It need not touch the line, ${line}.`;
+  const several = seedsOf(payload).length > 1;
+  const line = several ? "the mean of the hulls of all seeds" : "the hull";
+  const frontier = `A mark that is not dominated is on the frontier: no other human is both more natural and more adversarial. It need not touch the line, ${line}${several ? ", and the worst of one seed may lie above it" : ""}.`;
   return caption(
     `Each mark but the diamond and the triangle is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale} ${frontier}`,
     `${axisSentence(payload)} The boundary is what this search found, not the worst there is.`.trim(),

@@ -79,7 +79,10 @@ export function transport(
   return {
     element: h("div", { class: "transport" }, play.element, scrub.element,
       h("div", { class: "transport-options" }, episode.element, speed.element, overlay, reset)),
-    load: scrub.load,
+    load: (clip) => {
+      play.element.disabled = clip === null;
+      scrub.load(clip);
+    },
     focus: () => play.element.focus({ preventScroll: true }),
   };
 }

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 import signal
+import tempfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -48,18 +50,35 @@ def settle(desk: Path, cores: Sequence[int]) -> None:
         return
 
 
-def work(inputs: GroupInputs, plan: GroupPlan, driver: int) -> None:
+def leave_errand(desk: Path, inputs: GroupInputs, plan: GroupPlan) -> Path:
+    """Writes down what a worker is to do: a pipe that nobody empties would hold up who fills it.
+
+    Args:
+        desk: Folder that belongs to this measurement alone.
+        inputs: What all groups of the measurement share.
+        plan: The group.
+    """
+    import cloudpickle
+
+    handle, name = tempfile.mkstemp(dir=desk)
+    os.close(handle)
+    errand = Path(name)
+    errand.write_bytes(cloudpickle.dumps((inputs, plan)))
+    return errand
+
+
+def work(errand: Path, driver: int) -> None:
     """Runs a group in its run directory, where the driver finds it.
 
     Args:
-        inputs: What all groups of the measurement share.
-        plan: The group.
+        errand: What was left by `leave_errand`; it is gone afterwards.
         driver: Process that asked for it; without it nobody holds the run directory any more, and
             this process ends at once.
     """
     from rigid.compute.run.clock import core_seconds
     from rigid.compute.search.group import run_group
 
+    inputs, plan = _take(errand)
     begun, place, done = core_seconds(), progress_file(inputs.directory, plan), 0
     place.parent.mkdir(exist_ok=True)
 
@@ -72,6 +91,13 @@ def work(inputs: GroupInputs, plan: GroupPlan, driver: int) -> None:
 
     run_group(replace(inputs, threads=1), plan, advance=advance)
     advance(0)
+
+
+def _take(errand: Path) -> tuple[GroupInputs, GroupPlan]:
+    with errand.open("rb") as file:
+        inputs, plan = pickle.load(file)  # noqa: S301  The driver's own, in a folder of its own.
+    errand.unlink()
+    return inputs, plan
 
 
 def progress_file(directory: Path, plan: GroupPlan) -> Path:

@@ -20,6 +20,7 @@ from typing import Any
 from rigid.compute.executors.driving import drive
 from rigid.compute.executors.process_worker import (
     Progress,
+    leave_errand,
     progress_file,
     read_progress,
     settle,
@@ -59,7 +60,7 @@ class Processes:
             settling = (Path(desk), cores()[: self.count])
             pool = ProcessPoolExecutor(self.count, initializer=settle, initargs=settling)
             try:
-                yield ProcessWorkers(self.count, pool)
+                yield ProcessWorkers(self.count, pool, Path(desk))
             finally:
                 pool.shutdown(kill_workers=True)
 
@@ -80,8 +81,8 @@ def _interrupts_held() -> Iterator[None]:
 class ProcessWorkers:
     """Processes that are ready for groups."""
 
-    def __init__(self, count: int, pool: Any) -> None:
-        self.count, self._pool = count, pool
+    def __init__(self, count: int, pool: Any, desk: Path) -> None:
+        self.count, self._pool, self._desk = count, pool, desk
         self.description: str | None = f"{count} processes, a core for each"
         self._heard: dict[Future[None], Progress] = {}
 
@@ -97,8 +98,9 @@ class ProcessWorkers:
     def send(self, search: SeedSearch, plan: GroupPlan) -> Future[None]:
         """Hands a group to the next free process."""
         progress_file(search.inputs.directory, plan).unlink(missing_ok=True)  # Of an earlier one.
+        errand = leave_errand(self._desk, search.inputs, plan)
         with _interrupts_held():
-            future: Future[None] = self._pool.submit(work, search.inputs, plan, os.getpid())
+            future: Future[None] = self._pool.submit(work, errand, os.getpid())
         self._heard[future] = Progress()
         return future
 
