@@ -16,6 +16,23 @@ def test_the_gate_opens_when_every_upper_bound_keeps_its_limit(rigid, two_runs):
     assert [line[:6] for line in out.splitlines()[:3]] == ["ok    ", "ok    ", "upper "]
 
 
+def test_a_gate_that_few_seeds_open_warns_of_luck(rigid, with_worst):
+    luck = "search seeds may agree by chance, and let a robot pass by luck: rely on 5 or more"
+
+    def said(directory, *options):
+        return " ".join(rigid("gate", directory, *options)[1].split())
+
+    assert f"4 {luck}" in said(with_worst(0.1, 0.1, 0.1, 0.11), "--max-worst", "0.4")
+
+
+def test_a_gate_that_stays_shut_or_has_seeds_enough_warns_of_no_luck(rigid, with_worst):
+    few = with_worst(0.5, 0.6)
+    assert "luck" not in rigid("gate", few, "--max-worst", "0.4")[1]
+    shutil.rmtree(few)
+    many = with_worst(0.1, 0.1, 0.1, 0.1, 0.11)
+    assert "luck" not in rigid("gate", many, "--max-worst", "0.4")[1]
+
+
 def test_the_gate_says_where_no_natural_human_was_found(rigid, two_runs, tmp_path):
     """All humans stand at naturalness 0.5."""
     copy = shutil.copytree(two_runs[0], tmp_path / "half-natural")
@@ -26,7 +43,7 @@ def test_the_gate_says_where_no_natural_human_was_found(rigid, two_runs, tmp_pat
     def said(*options):
         return " ".join(rigid("gate", copy, *options)[1].split())
 
-    text = f"{copy}: 0 of 2 seeds found a human at naturalness ≥ 0.6: in all of them canonical play"
+    text = f"{copy}: 0 of 2 seeds found a human at naturalness ≥ 0.6: in both canonical play"
     level = ("--at-naturalness", "0.6")
     assert text in said("--max-worst", "1", *level)
     assert text in said("--baseline", two_runs[0], *level)

@@ -81,8 +81,19 @@ def test_the_headline_says_where_canonical_play_stands_for_humans_that_were_not_
         headline(replace(small_run, data={**small_run.data, "points": points}), Path("r"))
         for points in (far, near)
     ]
-    assert "0 of 2 seeds found a human at naturalness ≥ 0.9: in all of them canonical" in texts[0]
+    assert "0 of 2 seeds found a human at naturalness ≥ 0.9: in both canonical play" in texts[0]
     assert "1 of 2 seeds found a human at naturalness ≥ 0.9; in the other canonical" in texts[1]
+
+
+def test_the_headline_says_that_a_robot_does_not_do_its_task_yet(small_run):
+    def said(success):
+        canonical = {**small_run.data["canonical"], "success": success}
+        data = {**small_run.data, "canonical": canonical}
+        return " ".join(headline(replace(small_run, data=data), Path("r")).split())
+
+    assert "canonical play succeeds in 12 % of episodes: a robot that does not do its" in said(0.12)
+    assert "canonical play succeeds" not in said(0.5)
+    assert "canonical play succeeds" not in said(None)
 
 
 def test_other_settings_exit_with_2_and_the_first_difference(frontier, small_run):

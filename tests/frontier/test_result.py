@@ -60,6 +60,7 @@ def test_it_says_where_canonical_play_stands():
     assert lacking(2, 6, 0.9) == f"2 of 6 seeds found {level}; in the others {stands}"
     assert lacking(5, 6, 0.9) == f"5 of 6 seeds found {level}; in the other {stands}"
     assert lacking(0, 6, 0.9) == f"0 of 6 seeds found {level}: in all of them {stands}"
+    assert lacking(0, 2, 0.9) == f"0 of 2 seeds found {level}: in both {stands}"
     assert lacking(0, 1, 0.9) == f"the seed found no human at naturalness ≥ 0.9: {stands}"
     assert lacking(0, 9, 0.9, called="searches").startswith("0 of 9 searches found")
 

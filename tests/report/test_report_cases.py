@@ -101,7 +101,7 @@ def test_a_report_without_motion_invites_nobody_to_watch_and_shows_numbers_besid
     still = sample_payload(seeds=1, replays=0) | {absent: None, "failures": None}
     with visit(build_report(still, tmp_path / "report.html")) as page:
         captions = " ".join(page.locator("figcaption").all_inner_texts())
-        assert "Choose a mark to read its numbers" in captions
+        assert "Choose a round mark or a cross to read its numbers" in captions
         assert "to watch it" not in page.locator("main").inner_text()
         chart, numbers = (page.locator(f".stage {part}").bounding_box()
                           for part in (".frontier-chart", ".details"))  # fmt: skip

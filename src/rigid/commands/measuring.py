@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from rigid.tasks.protocol import Task
 
 _shown_as = tyro.conf.arg
+_USELESS = 0.5
+"""Success with its own human below which a robot is said not to do its task yet. Ours."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,6 +190,12 @@ def headline(frontier: Frontier, report: Path) -> str:
     lacking = frontier.lacking_at(0.9)
     if lacking is not None:
         lines.append(f"  {lacking}")
+    success = data["canonical"]["success"]
+    if success is not None and success < _USELESS:
+        lines.append(
+            f"  canonical play succeeds in {100 * success:.0f} % of episodes: a robot that does "
+            "not do its task yet has little to lose; train it first"
+        )
     if data.get("stamp"):
         lines.append(f"  {data['stamp']}")
     shown = (wrapped(line, width, hanging=" " * 4) for line in lines)

@@ -94,7 +94,8 @@ def lacking(found: int, searches: int, level: float, *, called: str = "seeds") -
     if searches == 1:
         return f"the seed found no human at naturalness ≥ {level:g}: canonical play stands there"
     others = "other" if searches - found == 1 else "others"
-    where = f"; in the {others}" if found else ": in all of them"
+    none = ": in both" if searches == 2 else ": in all of them"
+    where = f"; in the {others}" if found else none
     return (
         f"{found} of {searches} {called} found a human at naturalness ≥ {level:g}{where} canonical "
         "play stands there"

@@ -138,7 +138,7 @@ def test_where_no_seed_found_a_natural_human_the_robot_is_named(rigid, two_runs)
     (two_runs[1] / "frontier.json").write_text(json.dumps(data))
     out = rigid("compare", *two_runs)[1]
     said = (
-        "worse: 0 of 2 seeds found a human at naturalness ≥ 0.9: in all of them canonical play "
+        "worse: 0 of 2 seeds found a human at naturalness ≥ 0.9: in both canonical play "
         "stands there"
     )
     assert said in " ".join(out.split())

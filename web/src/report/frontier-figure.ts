@@ -72,7 +72,7 @@ function frontierCaption(payload: Payload): HTMLElement {
   return caption(
     `Each mark but the diamond and the triangle is one human policy, trained against this frozen robot and judged on fresh episodes by a referee that took no part in its training.${scale} ${frontier}`,
     `${axisSentence(payload)} The boundary is what this search found, not the worst there is.`.trim(),
-    `Choose a mark to ${watchable(payload) ? "watch it" : "read its numbers"}; arrow keys walk from mark to mark.`,
+    `Choose a round mark or a cross to ${watchable(payload) ? "watch it" : "read its numbers"}; arrow keys walk from mark to mark, Enter chooses.`,
   );
 }
 
