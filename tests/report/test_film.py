@@ -7,7 +7,7 @@ import pytest
 
 from rigid.errors import UserError
 from rigid.report import canvas
-from rigid.report.film import FilmSettings, Take, film, redness, shapes
+from rigid.report.film import TITLED, FilmSettings, Take, film, redness, shapes
 from rigid.report.motion import Motion, Touch
 from rigid.report.viewpoint import viewpoint_for
 
@@ -65,7 +65,7 @@ def test_the_part_that_is_struck_is_the_chest(struck):
 
 def test_the_itch_is_where_the_viewpoint_says(struck):
     scene, shown = struck
-    viewpoint = viewpoint_for(scene, shown.motion)
+    viewpoint = viewpoint_for(scene, shown.motion, free=TITLED)
     dot = shapes(scene, shown.motion, 0.0)[-1]
     dot = dot._replace(size=np.array([0.05, 0, 0]))
     with canvas.Canvas(320, 240) as drawing:
@@ -77,7 +77,7 @@ def test_the_itch_is_where_the_viewpoint_says(struck):
 
 def test_a_capsule_is_as_long_and_as_thick_as_it_says(struck):
     scene, shown = struck
-    viewpoint = viewpoint_for(scene, shown.motion)
+    viewpoint = viewpoint_for(scene, shown.motion, free=TITLED)
     ends = viewpoint.target + np.outer([-0.3, 0.3], viewpoint.axes[0])
     turn = viewpoint.axes[[1, 2, 0]].T  # Its axis z lies across the picture.
     rod = canvas.Shape(

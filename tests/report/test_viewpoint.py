@@ -64,6 +64,14 @@ def test_the_top_of_the_head_is_in_the_picture(filmed):
         assert y > 0
 
 
+def test_room_is_left_above_the_head_for_a_title(filmed):
+    scene, (motion, *_) = filmed
+    human = centres(scene, motion, "human")
+    top = human[human[:, 2].argmax()] + [0, 0, 0.16]
+    ((_, y),) = viewpoint_for(scene, motion, free=0.3).project(top[np.newaxis], 800, 600)
+    assert y >= 0.3 * 600 - 1e-6
+
+
 def test_the_camera_stands_before_the_person_and_above(filmed):
     scene, (motion, *_) = filmed
     viewpoint = viewpoint_for(scene, motion)

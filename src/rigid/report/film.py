@@ -43,6 +43,10 @@ _HELD, _FADED = 1.0, 2.0
 until then: contacts are recorded once a frame, and a tenth of a second is easily missed. Ours."""
 
 
+TITLED = 0.12
+"""Share of a picture's height that its title of two lines takes."""
+
+
 class Take(NamedTuple):
     """One episode, and what to write above it."""
 
@@ -90,7 +94,7 @@ def film(
         UserError: This machine cannot draw.
     """
     first = takes[0].motion
-    viewpoint = viewpoint_for(scene, first, aspect=settings.width / settings.height)
+    viewpoint = viewpoint_for(scene, first, aspect=settings.width / settings.height, free=TITLED)
     floor = floor_below(scene, first)
     with Canvas(_FINENESS * settings.width, _FINENESS * settings.height) as canvas:
         for time in settings.times(first):

@@ -51,13 +51,16 @@ class Viewpoint:
         )
 
 
-def viewpoint_for(scene: Mapping[str, Any], motion: Motion, *, aspect: float = 4 / 3) -> Viewpoint:
+def viewpoint_for(
+    scene: Mapping[str, Any], motion: Motion, *, aspect: float = 4 / 3, free: float = 0.0
+) -> Viewpoint:
     """Beside the line from person to robot, on the side that the person faces, a little above.
 
     Args:
         scene: `rigid.report.payload.Scene`.
         motion: An episode in it, all of which is to be seen.
         aspect: Width of the picture over its height.
+        free: Share of the picture's height that the person leaves free at its top.
     """
     human, start = centres(scene, motion, "human"), centres(scene, motion, "robot")
     robot = centres(scene, motion, "robot", [0.0, 1 / 3, 2 / 3, 1.0])
@@ -76,15 +79,24 @@ def viewpoint_for(scene: Mapping[str, Any], motion: Motion, *, aspect: float = 4
     radius = _FILLED * max(float(np.linalg.norm(high - low)) / 2, 0.1)
     direction = np.append(np.cos(_ELEVATION) * side, np.sin(_ELEVATION))
     distance = radius / np.sin(np.deg2rad(FIELD_OF_VIEW / 2)) / min(aspect, 1.0)
-    distance = max(distance, _far_enough(upper + (0.0, 0.0, _HEAD) - target, direction))
+    target = target + _raised(upper + (0.0, 0.0, _HEAD) - target, direction, distance, free)
     return Viewpoint(target + distance * direction, target)
 
 
-def _far_enough(points: Float[np.ndarray, "n 3"], direction: Float[np.ndarray, "3"]) -> float:
-    """Least distance from which points, relative to the target, lie below the picture's top."""
+def _raised(
+    points: Float[np.ndarray, "n 3"],
+    direction: Float[np.ndarray, "3"],
+    distance: float,
+    free: float,
+) -> Float[np.ndarray, "3"]:
+    """By how much target and camera rise, so that points lie below what is free at the top.
+
+    Moving away instead would make everything smaller.
+    """
     up = _unit(np.array([0.0, 0.0, 1.0]) - direction[2] * direction)
-    slope = np.tan(np.deg2rad(FIELD_OF_VIEW / 2))
-    return float(max(points @ (up / slope + direction), default=0.0))
+    slope = (1 - 2 * free) * np.tan(np.deg2rad(FIELD_OF_VIEW / 2))
+    beyond = points @ up - slope * (distance - points @ direction)
+    return np.asarray(max(beyond.max(initial=0.0), 0.0) * up)
 
 
 def centres(

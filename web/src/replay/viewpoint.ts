@@ -46,10 +46,14 @@ function action(scene: Scene, clip: Clip): Vector3[] {
   return paths.flatMap((path) => path ?? []).map((at) => new Vector3(...at));
 }
 
-/** Least distance from which a point, relative to the target, lies below the picture's top. */
-function farEnough(point: Vector3, direction: Vector3): number {
-  const up = new Vector3(0, 0, 1).addScaledVector(direction, -direction.z).normalize();
-  return point.dot(up) / Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2)) + point.dot(direction);
+/** By how much a point, relative to the target, is above the picture's top. */
+function above(point: Vector3, direction: Vector3, distance: number): number {
+  const top = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2)) * (distance - point.dot(direction));
+  return point.dot(upOf(direction)) - top;
+}
+
+function upOf(direction: Vector3): Vector3 {
+  return new Vector3(0, 0, 1).addScaledVector(direction, -direction.z).normalize();
 }
 
 /**
@@ -75,7 +79,9 @@ export function viewpointFor(scene: Scene, clip: Clip): Viewpoint {
   const radius = 0.5 * box.getSize(new Vector3()).length() * 0.8;
   const direction = side.multiplyScalar(Math.cos(ELEVATION)).setZ(Math.sin(ELEVATION));
   const tops = upper.map(({ x, y, z }) => new Vector3(x, y, z + HEAD).sub(target));
-  const distance = Math.max(
-    radius / Math.sin(MathUtils.degToRad(FIELD_OF_VIEW / 2)), ...tops.map((top) => farEnough(top, direction)));
+  const distance = radius / Math.sin(MathUtils.degToRad(FIELD_OF_VIEW / 2));
+  // Moving away instead would make everything smaller.
+  const beyond = Math.max(0, ...tops.map((top) => above(top, direction, distance)));
+  target.addScaledVector(upOf(direction), beyond);
   return { target, position: target.clone().addScaledVector(direction, distance) };
 }
