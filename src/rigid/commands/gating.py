@@ -87,10 +87,12 @@ class _Verdict(NamedTuple):
 
 def _notes(options: GateCommand, verdicts: Sequence[_Verdict]) -> Iterator[str]:
     """What a reader of the verdicts has to know, a sentence each."""
+    named = filter(None, (options.directory, options.baseline))
+    frontiers = {directory: load_measured(directory)[0] for directory in named}
     limits = options.max_worst, options.max_auc_natural, options.max_auc
     if any(limit is not None for limit in limits):
         yield _WHY_WIDER
-        seeds = len(load_measured(options.directory)[0].data["auc_by_seed"])
+        seeds = len(frontiers[options.directory].data["auc_by_seed"])
         if seeds < _FEW and any(one.fine for one in verdicts):
             yield (
                 f"{seeds} search seeds may agree by chance, and let a robot pass by luck: rely on "
@@ -100,8 +102,8 @@ def _notes(options: GateCommand, verdicts: Sequence[_Verdict]) -> Iterator[str]:
         yield _MORE_SEEDS
     if (options.max_worst, options.baseline) == (None, None):
         return
-    for directory in filter(None, (options.directory, options.baseline)):
-        lacking = load_measured(directory)[0].lacking_at(options.at_naturalness)
+    for directory, frontier in frontiers.items():
+        lacking = frontier.lacking_at(options.at_naturalness)
         if lacking is not None:
             yield f"{printable(str(directory))}: {lacking}"
 

@@ -95,7 +95,7 @@ def work(errand: Path, driver: int) -> None:
 
 def _take(errand: Path) -> tuple[GroupInputs, GroupPlan]:
     with errand.open("rb") as file:
-        inputs, plan = pickle.load(file)  # noqa: S301  The driver's own, in a folder of its own.
+        inputs, plan = pickle.load(file)  # noqa: S301  What `leave_errand` wrote, in a folder only its user can enter.
     errand.unlink()
     return inputs, plan
 
