@@ -137,6 +137,7 @@ def family_iteration(
             settings=settings,
         )
         after.append(updated._replace(learner=_sampling(updated.learner, opponent.human.log_std)))
+        metrics = jax.device_get(metrics)  # In JAX each slice would be a program.
         for lambda_ in range_.asked:
             slot = range_.slot(lambda_)
             mine = slice((first + slot) * settings.episodes, (first + slot + 1) * settings.episodes)

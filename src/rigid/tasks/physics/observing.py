@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 
 import numpy as np
 from jaxtyping import Float
@@ -72,6 +73,7 @@ def turned_for_robot(
     return turned.as_quat(scalar_first=True)
 
 
+@cache  # Asked for twice in every control step, and SciPy takes long to make one.
 def _from_world(yaw: float) -> Rotation:
     return Rotation.from_euler("z", yaw).inv()
 
