@@ -11,6 +11,7 @@ from pathlib import Path
 
 import tyro
 
+from rigid.cli import end_as_interrupted
 from rigid.commands.parsing import printable
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
@@ -56,6 +57,7 @@ class Study(ABC):
 
 def start(kind: type[Study], name: str, arguments: Sequence[str] | None = None) -> int:
     """Runs a study with the options of a command line and returns its exit code."""
+    end_as_interrupted()
     fix_xla_threads()  # Before anything trains, so that a study says the same as the commands.
     options = tyro.cli(
         kind, args=arguments, prog=f"python -m benchmarks.{name}",

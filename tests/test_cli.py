@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import os
+import signal
 import subprocess
 import sys
 
@@ -264,6 +265,31 @@ def test_an_interrupted_process_ends_before_libraries_can_crash_at_its_exit():
     assert (done.returncode, done.stdout, done.stderr) == (130, "shown", "")
 
 
+def test_a_command_that_is_told_to_end_ends_as_after_ctrl_c_with_all_its_processes(tmp_path):
+    """A scheduler sends SIGTERM to every process of a job."""
+    command = [
+        sys.executable,
+        "-m",
+        "rigid",
+        "frontier",
+        "--preset",
+        "demo",
+        "--out",
+        str(tmp_path),
+    ]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, process_group=0
+    ) as process:
+        shown = [next(line for line in process.stdout if "training steps" in line)]
+        os.killpg(process.pid, signal.SIGTERM)
+        shown += process.stdout.readlines()  # Until the last of the processes has ended.
+    assert process.returncode == 130
+    assert shown[-1] == (
+        "rigid: interrupted; nothing was kept yet, so the same command begins anew\n"
+    )
+    assert not [line for line in shown if "Traceback" in line or "semlock" in line]
+
+
 def test_a_bug_keeps_its_traceback(exit_of):
     with pytest.raises(ZeroDivisionError):
         exit_of(ZeroDivisionError())
@@ -272,6 +298,7 @@ def test_a_bug_keeps_its_traceback(exit_of):
 def test_main_exits_with_the_code_of_the_command(monkeypatch, tmp_path, capsys):
     monkeypatch.setenv("PYTHONSAFEPATH", "")  # It is set for what is started; not for other tests.
     monkeypatch.setattr(sys, "argv", ["rigid", "report", str(tmp_path)])
+    monkeypatch.setattr(cli, "end_as_interrupted", lambda: None)  # The suite's process is not ours.
     with pytest.raises(SystemExit) as end:
         cli.main()
     assert end.value.code == 2

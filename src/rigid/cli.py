@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import operator
 import os
+import signal
 import sys
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
@@ -73,6 +74,7 @@ _COMMANDS: dict[str, type[_Runs] | Group] = {
 def main() -> None:
     """Runs one command and exits: 0 done, 1 a check failed, 2 bad input, 130 interrupted."""
     shut_working_directory()
+    end_as_interrupted()
     try:
         try:
             code = run()
@@ -89,6 +91,11 @@ def main() -> None:
             sys.stderr.flush()
         os._exit(code)
     sys.exit(code)
+
+
+def end_as_interrupted() -> None:
+    """Makes this process end as after Ctrl-C when it is told to: by a scheduler or `timeout`."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

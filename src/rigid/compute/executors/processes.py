@@ -70,8 +70,9 @@ def _interrupts_held() -> Iterator[None]:
     """Keeps Ctrl-C until the end of the block, and for good from processes that start in it.
 
     The terminal sends it to all of them, and who still loads modules would answer with a traceback.
+    So it is with SIGTERM, which a scheduler sends to all: the driver is who ends its workers.
     """
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         yield
     finally:
