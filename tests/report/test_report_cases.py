@@ -120,6 +120,27 @@ def test_a_human_without_a_stored_episode_cannot_be_played(visit, sample_payload
             assert page.get_by_role("button", name="Play").is_enabled() == playable
 
 
+def test_humans_whose_marks_cover_each_other_are_chosen_one_after_the_other(
+    visit, sample_payload, tmp_path
+):
+    payload = sample_payload(seeds=1, replays=0)
+    crowd = payload["frontier"]["points"][:3]
+    for point in crowd:
+        point |= {"naturalness": 0.5, "adversarialness": 0.5}
+    names = {point["id"] for point in crowd}
+    with visit(build_report(payload, tmp_path / "report.html")) as page:
+        chart = page.locator(".frontier-chart")
+        spot = chart.locator(f'[data-id="{crowd[0]["id"]}"]').bounding_box()
+        place = spot["x"] + spot["width"] / 2, spot["y"] + spot["height"] / 2
+        page.mouse.move(*place)
+        assert "2 more below: click again for the next" in chart.locator(".tooltip").inner_text()
+        chosen = []
+        for _ in range(6):
+            page.mouse.click(*place)
+            chosen.append(chart.locator(".chosen").get_attribute("data-id"))
+        assert set(chosen[:3]) == set(chosen[3:]) == names
+
+
 def test_a_task_with_outcomes_of_its_own_and_without_forces_shows_what_it_has(
     visit, sample_payload, tmp_path
 ):

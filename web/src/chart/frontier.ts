@@ -73,9 +73,9 @@ export function frontierChart(host: HTMLElement, data: FrontierData, chosen: Sig
 
     select = interactive(marks, {
       choose: (id) => (chosen.value = id),
-      peek: (mark) => {
+      peek: (mark, others) => {
         const lines = data.marks.find(({ id }) => id === mark.id)?.lines ?? [];
-        tooltip.show(mark.at, lines, width);
+        tooltip.show(mark.at, others ? [...lines, `${others} more below: click again for the next`] : lines, width);
       },
       leave: () => tooltip.hide(),
     });

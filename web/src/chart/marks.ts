@@ -1,6 +1,7 @@
 /**
  * Marks that can be pointed at, tabbed to and chosen. One tab stop per chart; arrow keys walk
- * from mark to mark, Enter or Space chooses.
+ * from mark to mark, Enter or Space chooses. Where marks cover each other, clicking again chooses
+ * the next of those below the pointer.
  */
 import { on } from "../base/dom.js";
 import { neighbour, type Arrow, type XY } from "./hull.js";
@@ -14,7 +15,8 @@ export interface Mark {
 
 export interface Actions {
   readonly choose: (id: string) => void;
-  readonly peek: (mark: Mark) => void;
+  /** Told of the mark that is pointed at, and how many others lie below the pointer. */
+  readonly peek: (mark: Mark, others: number) => void;
   readonly leave: () => void;
 }
 
@@ -28,19 +30,21 @@ export function interactive(marks: readonly Mark[], actions: Actions): (id: stri
     marks.forEach(({ element }, i) => element.setAttribute("tabindex", i === index ? "0" : "-1"));
   };
   marks.forEach((mark, index) => {
+    const point = (event: PointerEvent): void => actions.peek(mark, Math.max(0, below(marks, event).length - 1));
     mark.element.setAttribute("role", "button");
     on(mark.element, {
-      click: () => actions.choose(mark.id),
-      pointerenter: () => actions.peek(mark),
+      click: (event) => actions.choose(next(below(marks, event), mark).id),
+      pointerenter: point,
+      pointermove: point,
       pointerleave: actions.leave,
-      focus: () => actions.peek(mark),
+      focus: () => actions.peek(mark, 0),
       blur: actions.leave,
       keydown: (event) => {
         if (event.key === "Enter" || event.key === " ") actions.choose(mark.id);
         else if (KEYS.has(event.key)) {
-          const next = neighbour(positions, index, event.key as Arrow);
-          setStop(next);
-          marks[next]?.element.focus();
+          const there = neighbour(positions, index, event.key as Arrow);
+          setStop(there);
+          marks[there]?.element.focus();
         } else if (event.key === "Escape") actions.leave();
         else return;
         event.preventDefault();
@@ -55,4 +59,15 @@ export function interactive(marks: readonly Mark[], actions: Actions): (id: stri
     });
     setStop(Math.max(0, marks.findIndex((mark) => mark.id === id)));
   };
+}
+
+function below(marks: readonly Mark[], { clientX, clientY }: MouseEvent): Mark[] {
+  const hit = document.elementsFromPoint(clientX, clientY);
+  return marks.filter(({ element }) => hit.some((part) => element.contains(part)));
+}
+
+/** The mark after the chosen one, round and round, if that lies here; else the one that was hit. */
+function next(here: readonly Mark[], hit: Mark): Mark {
+  const chosen = here.findIndex(({ element }) => element.getAttribute("aria-pressed") === "true");
+  return chosen < 0 ? hit : here[(chosen + 1) % here.length] ?? hit;
 }
