@@ -11,10 +11,10 @@ from pathlib import Path
 
 import tyro
 
-from rigid.cli import end_as_interrupted
 from rigid.commands.parsing import printable
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
+from rigid.interrupts import terminated_as_interrupted
 
 INTERRUPTED = 130
 
@@ -57,7 +57,6 @@ class Study(ABC):
 
 def start(kind: type[Study], name: str, arguments: Sequence[str] | None = None) -> int:
     """Runs a study with the options of a command line and returns its exit code."""
-    end_as_interrupted()
     fix_xla_threads()  # Before anything trains, so that a study says the same as the commands.
     options = tyro.cli(
         kind, args=arguments, prog=f"python -m benchmarks.{name}",
@@ -74,7 +73,8 @@ def exit_code(name: str, work: Callable[[], None]) -> int:
         0
     """
     try:
-        work()
+        with terminated_as_interrupted():
+            work()
     except UserError as error:
         print(f"{name}: {printable(str(error))}", file=sys.stderr)
         return error.exit_code

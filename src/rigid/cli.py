@@ -8,7 +8,6 @@ from __future__ import annotations
 import functools
 import operator
 import os
-import signal
 import sys
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
@@ -37,6 +36,7 @@ from rigid.commands.train import TRAIN
 from rigid.commands.verifying import VerifyCommand
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
+from rigid.interrupts import terminated_as_interrupted
 from rigid.serving.environment import shut_working_directory
 
 INTERRUPTED = 130
@@ -74,10 +74,10 @@ _COMMANDS: dict[str, type[_Runs] | Group] = {
 def main() -> None:
     """Runs one command and exits: 0 done, 1 a check failed, 2 bad input, 130 interrupted."""
     shut_working_directory()
-    end_as_interrupted()
     try:
         try:
-            code = run()
+            with terminated_as_interrupted():
+                code = run()
         finally:
             sys.stdout.flush()
     except BrokenPipeError:  # As of `rigid … | head`: who reads has read enough.
@@ -91,11 +91,6 @@ def main() -> None:
             sys.stderr.flush()
         os._exit(code)
     sys.exit(code)
-
-
-def end_as_interrupted() -> None:
-    """Makes this process end as after Ctrl-C when it is told to: by a scheduler or `timeout`."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

@@ -95,7 +95,7 @@ def work(errand: Path, driver: int) -> None:
 
 def _take(errand: Path) -> tuple[GroupInputs, GroupPlan]:
     with errand.open("rb") as file:
-        inputs, plan = pickle.load(file)  # noqa: S301  What `leave_errand` wrote, in a folder only its user can enter.
+        inputs, plan = pickle.load(file)  # noqa: S301  Our own driver's, from a folder that only its user can enter; a task's functions have no other form.
     errand.unlink()
     return inputs, plan
 

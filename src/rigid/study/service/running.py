@@ -6,17 +6,16 @@ import asyncio
 import gc
 import ipaddress
 import resource
-import signal
 import socket
 import ssl
 import sys
 from pathlib import Path
-from types import FrameType
 from typing import Final
 
 import uvicorn
 
 from rigid.errors import UserError
+from rigid.interrupts import terminated_as_interrupted
 from rigid.study.service.app import build_app
 from rigid.study.service.context import Service
 from rigid.study.service.messages import LIVE_BYTES
@@ -115,11 +114,10 @@ def serve(
     sys.setswitchinterval(_SWITCH)
     gc.collect()
     gc.freeze()  # What is there now stays: looking through it takes tens of milliseconds.
-    before = signal.signal(signal.SIGTERM, _interrupt)  # uvicorn raises it again at the end.
     try:
-        asyncio.run(server.serve(sockets=[opened]))
+        with terminated_as_interrupted():  # uvicorn raises the signal again at the end.
+            asyncio.run(server.serve(sockets=[opened]))
     finally:
-        signal.signal(signal.SIGTERM, before)
         service.close()
 
 
@@ -147,11 +145,6 @@ def server_of(
         timeout_graceful_shutdown=GRACE_SECONDS,
     )
     return uvicorn.Server(config)
-
-
-def _interrupt(number: int, frame: FrameType | None) -> None:
-    del number, frame
-    raise KeyboardInterrupt
 
 
 def _allow_many_files() -> None:
