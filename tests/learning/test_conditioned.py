@@ -108,3 +108,8 @@ def test_a_family_of_one_slot_is_refused():
 def test_noise_that_never_settles_is_refused(wrong):
     with pytest.raises(ValueError, match=next(iter(wrong)) + " " + str(*wrong.values())):
         Sharing(**wrong)
+
+
+def test_an_average_over_more_than_all_iterations_is_refused():
+    with pytest.raises(ValueError, match=r"share of the iterations in \[0, 1\], got .* 1\.5"):
+        Sharing(natural_average=1.5)

@@ -35,7 +35,7 @@ EPISODES = 1000
 SETTINGS = AdversarySettings(
     iterations=60,
     episodes=EPISODES,
-    sharing=Sharing(wild_slots=2, natural_slots=8, natural_from=0.5),
+    sharing=Sharing(wild_slots=2, natural_slots=8, natural_from=0.5, natural_average=0.2),
     measure="kl",
     ppo=PPOSettings(learning_rate=4e-3, update_normaliser=False, gae_lambda=1.0),
     discriminator=DiscriminatorSettings(hidden=(16,), steps=10, minibatch=128),
@@ -81,15 +81,10 @@ def train(task, opponent, settings, lambdas, iterations, *, families=None, seed=
 
 @pytest.fixture(scope="module")
 def at_rest(catch):
-    """What the last iteration saw, and mean offsets over the last third of them."""
-    early = SETTINGS.iterations * 2 // 3
-    families, ranges, seen = train(CATCH, catch, SETTINGS, LAMBDAS, early)
-    offsets = []
-    for _ in range(SETTINGS.iterations - early):
-        families, _, seen = train(CATCH, catch, SETTINGS, LAMBDAS, 1, families=families)
-        found = members(families, ranges)
-        offsets.append([offset_of(found[lambda_].learner.policy) for lambda_ in LAMBDAS])
-    return seen, np.mean(offsets, axis=0)
+    """What the last iteration saw, and the offset of each adversary in the end."""
+    families, ranges, seen = train(CATCH, catch, SETTINGS, LAMBDAS, SETTINGS.iterations)
+    found = members(families, ranges)
+    return seen, [offset_of(found[lambda_].learner.policy) for lambda_ in LAMBDAS]
 
 
 def offset_of(policy):
@@ -128,6 +123,23 @@ def test_a_lambda_that_both_families_train_at_is_served_by_the_one_it_belongs_to
     np.testing.assert_array_equal(
         found[0.1].learner.policy.network[1]["w"], families[0].learner.policy.network[1]["w"]
     )
+
+
+def test_an_adversary_is_the_moving_average_of_the_natural_network_and_the_last_wild_one(reach):
+    """Over half of four iterations: what was before an iteration counts half as much after it."""
+    settings = replace(ALONE, sharing=replace(FEW, natural_average=0.5), episodes=8, iterations=4)
+    families, networks = None, []
+    for _ in range(3):
+        families, ranges, _ = train(REACH, reach, settings, (0.0, 1.0), 1, families=families)
+        networks.append([family.learner.policy.network[1]["w"] for family in families])
+    found = members(families, ranges)
+    wild, natural = (found[lambda_].learner.policy.network[1]["w"] for lambda_ in (0.0, 1.0))
+    np.testing.assert_array_equal(wild, networks[-1][0])
+    expected = HUMAN.network[1]["w"]
+    for _, network in networks:
+        expected = (expected + network) / 2
+    np.testing.assert_allclose(natural, expected, rtol=1e-5)
+    assert np.abs(natural - networks[-1][1]).max() > 1e-3
 
 
 @pytest.mark.parametrize("measure", WITH_SLOW)

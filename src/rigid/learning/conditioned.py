@@ -47,6 +47,10 @@ class Sharing:
     natural_from: float = 0.1
     """The natural one also trains at λ from here on: those that are pulled less find the robot's
     weak places first, for the others to make natural."""
+    natural_average: float = 0.4
+    """The natural one is, in the end, the moving average of its networks over this share of the
+    iterations. Its last one alone still wanders around where a discriminator holds it, which a
+    referee that learned from all of its motion tells from canonical. 0: its last one."""
 
     def __post_init__(self) -> None:
         """Raises `ValueError` for families that could not reach both ends or come to rest."""
@@ -60,6 +64,12 @@ class Sharing:
             raise ValueError(
                 "the wild family needs noise above 0 and a share of iterations in (0, 1], got "
                 f"wild_noise {self.wild_noise} and wild_quiet_from {self.wild_quiet_from}"
+            )
+
+        if not 0 <= self.natural_average <= 1:
+            raise ValueError(
+                "the natural family is averaged over a share of the iterations in [0, 1], got "
+                f"natural_average {self.natural_average}"
             )
 
     @property

@@ -40,6 +40,12 @@ class Range(NamedTuple):
         """One search measure for each slot."""
         return SideBySide(settings.search_measure, self.slots)
 
+    def remembered(self, settings: AdversarySettings) -> float:
+        """Share of its average that outlives an iteration; 0: the average is the last network."""
+        if settings.sharing is None or not self.natural:
+            return 0.0
+        return 1 - 1 / max(settings.sharing.natural_average * settings.iterations, 1.0)
+
 
 class Drawn(NamedTuple):
     """What the slots of one family play in one iteration."""

@@ -44,7 +44,7 @@ from rigid.learning.ppo import ppo_update, start_learner
 from rigid.learning.ranges import Drawn, Range, draw
 from rigid.naturalness.measure import Motion, unknown
 from rigid.naturalness.side_by_side import SideBySide
-from rigid.policies.gaussian import with_memory
+from rigid.policies.gaussian import GaussianParameters, with_memory
 from rigid.policies.networks import MLP
 from rigid.tasks.protocol import Task, World
 
@@ -60,6 +60,8 @@ class Family(NamedTuple):
     """States of the slots' search measures, stacked."""
     penalty_std: Float[Array, " S"]
     """σ_P of each slot, frozen."""
+    average: MLP
+    """Moving average of the policy's network over iterations: what its adversaries are."""
     iteration: Int[Array, ""]
 
 
@@ -79,6 +81,7 @@ def start_family(
         start_learner(settings.ppo, policy, _told_critic(critic), policy.normaliser),
         states,
         measures.unit(states, canonical),
+        policy.network,
         jnp.asarray(0, jnp.int32),
     )
 
@@ -135,6 +138,7 @@ def family_iteration(
             canonical,
             jax.random.fold_in(key, index),
             settings=settings,
+            remembered=range_.remembered(settings),
         )
         after.append(updated._replace(learner=_sampling(updated.learner, opponent.human.log_std)))
         metrics = jax.device_get(metrics)  # In JAX each slice would be a program.
@@ -165,7 +169,7 @@ def _of_slot(metrics: Metrics, slot: int) -> Metrics:
     return own
 
 
-@partial(jax.jit, static_argnames="settings")
+@partial(jax.jit, static_argnames=("settings", "remembered"))
 def _update(
     family: Family,
     experience: Experience,
@@ -174,6 +178,7 @@ def _update(
     key: PRNGKeyArray,
     *,
     settings: AdversarySettings,
+    remembered: float,
 ) -> tuple[Family, Metrics]:
     observation, action, reward, weight, features = experience
     slots, policy = len(drawn.lambdas), family.learner.policy
@@ -207,7 +212,11 @@ def _update(
         entropy=losses.entropy,
         health=health,
     )
-    return Family(learner, states, family.penalty_std, family.iteration + 1), metrics
+    average = jax.tree.map(
+        lambda old, new: remembered * old + (1 - remembered) * new,
+        family.average, learner.policy.network,
+    )  # fmt: skip
+    return Family(learner, states, family.penalty_std, average, family.iteration + 1), metrics
 
 
 def _apart(x: Shaped[Array, "T N *k"], slots: int) -> Shaped[Array, "S T n *k"]:
@@ -224,7 +233,7 @@ def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[floa
     """What the families are at each λ that was asked for: their policies are ordinary networks."""
     return {
         lambda_: Adversary(
-            family.learner._replace(policy=at_code(family.learner.policy, code)),
+            family.learner._replace(policy=at_code(_resting(family), code)),
             jax.tree.map(itemgetter(range_.slot(lambda_)), family.measures),
             family.penalty_std[range_.slot(lambda_)],
             jnp.asarray(lambda_, jnp.float32),
@@ -234,3 +243,7 @@ def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[floa
         for lambda_, code in zip(range_.lambdas, jnp.asarray(range_.codes()), strict=True)
         if lambda_ in range_.asked
     }
+
+
+def _resting(family: Family) -> GaussianParameters:
+    return family.learner.policy._replace(network=family.average)
