@@ -113,3 +113,8 @@ def test_noise_that_never_settles_is_refused(wrong):
 def test_an_average_over_more_than_all_iterations_is_refused():
     with pytest.raises(ValueError, match=r"share of the iterations in \[0, 1\], got .* 1\.5"):
         Sharing(natural_average=1.5)
+
+
+def test_adversaries_that_go_all_the_way_back_are_refused():
+    with pytest.raises(ValueError, match=r"share of the way to the human in \[0, 1\), got .* 1\.0"):
+        Sharing(retreat=1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import jax
 import jax.numpy as jnp
@@ -35,12 +36,14 @@ EPISODES = 1000
 SETTINGS = AdversarySettings(
     iterations=60,
     episodes=EPISODES,
-    sharing=Sharing(wild_slots=2, natural_slots=8, natural_from=0.5, natural_average=0.2),
+    sharing=Sharing(
+        wild_slots=2, natural_slots=8, natural_from=0.5, natural_average=0.2, retreat=0.0
+    ),
     measure="kl",
     ppo=PPOSettings(learning_rate=4e-3, update_normaliser=False, gae_lambda=1.0),
     discriminator=DiscriminatorSettings(hidden=(16,), steps=10, minibatch=128),
 )
-FEW = Sharing(wild_slots=2, natural_slots=3)
+FEW = Sharing(wild_slots=2, natural_slots=3, retreat=0.0)
 LAMBDAS = (0.5, 0.7, 1.0, 1.4, 2.0)
 
 
@@ -83,7 +86,7 @@ def train(task, opponent, settings, lambdas, iterations, *, families=None, seed=
 def at_rest(catch):
     """What the last iteration saw, and the offset of each adversary in the end."""
     families, ranges, seen = train(CATCH, catch, SETTINGS, LAMBDAS, SETTINGS.iterations)
-    found = members(families, ranges)
+    found = members(families, ranges, catch, SETTINGS)
     return seen, [offset_of(found[lambda_].learner.policy) for lambda_ in LAMBDAS]
 
 
@@ -118,7 +121,7 @@ def test_a_lambda_that_both_families_train_at_is_served_by_the_one_it_belongs_to
     """0.1 is wild, and the natural family trains at it for the sake of others."""
     settings = replace(ALONE, sharing=FEW, episodes=8)
     families, ranges, seen = train(REACH, reach, settings, (0.1, 1.0), 1)
-    found = members(families, ranges)
+    found = members(families, ranges, reach, settings)
     assert set(found) == set(seen) == {0.1, 1.0}
     np.testing.assert_array_equal(
         found[0.1].learner.policy.network[1]["w"], families[0].learner.policy.network[1]["w"]
@@ -132,7 +135,7 @@ def test_an_adversary_is_the_moving_average_of_the_natural_network_and_the_last_
     for _ in range(3):
         families, ranges, _ = train(REACH, reach, settings, (0.0, 1.0), 1, families=families)
         networks.append([family.learner.policy.network[1]["w"] for family in families])
-    found = members(families, ranges)
+    found = members(families, ranges, reach, settings)
     wild, natural = (found[lambda_].learner.policy.network[1]["w"] for lambda_ in (0.0, 1.0))
     np.testing.assert_array_equal(wild, networks[-1][0])
     expected = HUMAN.network[1]["w"]
@@ -140,6 +143,21 @@ def test_an_adversary_is_the_moving_average_of_the_natural_network_and_the_last_
         expected = (expected + network) / 2
     np.testing.assert_allclose(natural, expected, rtol=1e-5)
     assert np.abs(natural - networks[-1][1]).max() > 1e-3
+
+
+def test_an_adversary_of_lambda_1_or_more_goes_part_of_the_way_back_to_the_human(reach):
+    """What a network adds to the human's is kept to the share that is not gone back."""
+    settings = replace(ALONE, sharing=FEW, episodes=8)
+    families, ranges, _ = train(REACH, reach, settings, (0.0, 0.9, 1.0, INF), 1)
+    returning = replace(settings, sharing=replace(FEW, retreat=0.25))
+    away = members(families, ranges, reach, settings)
+    back = members(families, ranges, reach, returning)
+    for lambda_ in (0.0, 0.9):
+        assert bitwise_equal(back[lambda_], away[lambda_])
+    for lambda_ in (1.0, INF):
+        learned, kept = (found[lambda_].learner.policy.network for found in (away, back))
+        expected = jax.tree.map(lambda near, far: (near + 3 * far) / 4, HUMAN.network, learned)
+        jax.tree.map(partial(np.testing.assert_allclose, rtol=1e-5, atol=1e-7), kept, expected)
 
 
 @pytest.mark.parametrize("measure", WITH_SLOW)
@@ -157,7 +175,7 @@ def test_stopping_and_going_on_changes_nothing_under_any_measure(reach, measure,
 def test_an_adversary_is_a_policy_without_a_code_that_remembers_as_settings_say(reach):
     settings = replace(ALONE, sharing=FEW, memory=3, episodes=8)
     families, ranges, _ = train(REACH, reach, settings, (0.0, 1.0, 2.0), 1)
-    for adversary in members(families, ranges).values():
+    for adversary in members(families, ranges, reach, settings).values():
         assert adversary.learner.policy.network[0]["w"].shape[0] == 3 * REACH.human.observation_size
 
 
@@ -175,5 +193,5 @@ def test_the_wild_family_explores_loudly_and_rests_at_the_noise_of_the_human(rea
     factors = np.exp(played)
     np.testing.assert_allclose(factors[:, 0], [3, 3 ** (2 / 3), 3 ** (1 / 3), 1], rtol=1e-5)
     np.testing.assert_array_equal(factors[:, 2:], 1.0)
-    for adversary in members(families, ranges).values():
+    for adversary in members(families, ranges, reach, settings).values():
         np.testing.assert_array_equal(adversary.learner.policy.log_std, HUMAN.log_std)

@@ -51,6 +51,12 @@ class Sharing:
     """The natural one is, in the end, the moving average of its networks over this share of the
     iterations. Its last one alone still wanders around where a discriminator holds it, which a
     referee that learned from all of its motion tells from canonical. 0: its last one."""
+    retreat: float = 0.3
+    """Its adversaries of `retreat_from` and more then go this share of the way back to the human,
+    weight by weight (as Wortsman et al. 2022, 'Robust fine-tuning of zero-shot models'): most of
+    what it does to the robot stays, and what a referee tells it by goes."""
+    retreat_from: float = 1.0
+    """λ from which on being canonical counts for more than harm."""
 
     def __post_init__(self) -> None:
         """Raises `ValueError` for families that could not reach both ends or come to rest."""
@@ -70,6 +76,12 @@ class Sharing:
             raise ValueError(
                 "the natural family is averaged over a share of the iterations in [0, 1], got "
                 f"natural_average {self.natural_average}"
+            )
+
+        if not 0 <= self.retreat < 1:
+            raise ValueError(
+                "adversaries go back a share of the way to the human in [0, 1), got "
+                f"retreat {self.retreat}"
             )
 
     @property

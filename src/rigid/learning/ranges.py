@@ -46,6 +46,13 @@ class Range(NamedTuple):
             return 0.0
         return 1 - 1 / max(settings.sharing.natural_average * settings.iterations, 1.0)
 
+    def kept(self, lambda_: float, settings: AdversarySettings) -> float:
+        """Share of the way from the synthetic human that the adversary of one λ keeps."""
+        sharing = settings.sharing
+        if sharing is None or not self.natural or lambda_ < sharing.retreat_from:
+            return 1.0
+        return 1 - sharing.retreat
+
 
 class Drawn(NamedTuple):
     """What the slots of one family play in one iteration."""

@@ -150,5 +150,5 @@ class Together:
 
     def adversaries(self, state: list[Family]) -> list[Adversary]:
         """What the families are at each λ."""
-        found = members(state, self.ranges)
+        found = members(state, self.ranges, self.opponent, self.settings)
         return [found[lambda_] for lambda_ in self.lambdas]

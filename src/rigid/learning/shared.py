@@ -75,8 +75,7 @@ def start_family(
     )
     policy, measures = told(policy), range_.measures(settings)
     canonical = canonical_motion(opponent)
-    human = told(with_memory(opponent.human, settings.memory))
-    states = measures.start(measure_key, canonical, human)
+    states = measures.start(measure_key, canonical, _at_home(opponent, settings))
     return Family(
         start_learner(settings.ppo, policy, _told_critic(critic), policy.normaliser),
         states,
@@ -229,11 +228,19 @@ def _together(x: Float[Array, "S T n"]) -> Float[Array, "T N"]:
     return jnp.moveaxis(x, 0, 1).reshape(x.shape[1], -1)
 
 
-def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[float, Adversary]:
+def members(
+    families: Sequence[Family],
+    ranges: Sequence[Range],
+    opponent: Opponent,
+    settings: AdversarySettings,
+) -> Mapping[float, Adversary]:
     """What the families are at each λ that was asked for: their policies are ordinary networks."""
+    home = _at_home(opponent, settings).network
     return {
         lambda_: Adversary(
-            family.learner._replace(policy=at_code(_resting(family), code)),
+            family.learner._replace(
+                policy=at_code(_resting(family, home, range_.kept(lambda_, settings)), code)
+            ),
             jax.tree.map(itemgetter(range_.slot(lambda_)), family.measures),
             family.penalty_std[range_.slot(lambda_)],
             jnp.asarray(lambda_, jnp.float32),
@@ -245,5 +252,14 @@ def members(families: Sequence[Family], ranges: Sequence[Range]) -> Mapping[floa
     }
 
 
-def _resting(family: Family) -> GaussianParameters:
-    return family.learner.policy._replace(network=family.average)
+def _at_home(opponent: Opponent, settings: AdversarySettings) -> GaussianParameters:
+    """The synthetic human, with room for what adversaries see and it does not heed."""
+    return told(with_memory(opponent.human, settings.memory))
+
+
+def _resting(family: Family, home: MLP, kept: float) -> GaussianParameters:
+    """The policy that was learned, `kept` of the way from `home`."""
+    away = family.average
+    if kept < 1:
+        away = jax.tree.map(lambda near, far: near + kept * (far - near), home, away)
+    return family.learner.policy._replace(network=away)
