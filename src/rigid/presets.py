@@ -81,7 +81,7 @@ PRESETS = {
         referee_episodes=40,
         validation_episodes=24,
         lambda_min=0.03,
-        # It ends before its networks come to rest, so that their average and the way home are none.
+        # It ends before its networks come to rest: an average would be of networks on their way.
         sharing=Sharing(natural_average=0.0, retreat=0.0),
         stamp="demo: not for publication",
     ),
