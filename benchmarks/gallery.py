@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import inspect
 import io
+import re
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -90,11 +91,20 @@ class Gallery:
         total = sum(map(len, pictures.values()))
         if total > _MOST:
             raise UserError(f"{total:,} bytes of pictures, more than {_MOST:,}: name fewer runs")
+        before = shown_on(self.out / "gallery.md")
         (self.out / "gallery").mkdir(parents=True, exist_ok=True)
         for name, data in pictures.items():
             write_atomically(self.out / "gallery" / name, data)
         write_atomically(self.out / "gallery.md", page(self.runs, sections).encode())
+        for name in before - pictures.keys():
+            (self.out / "gallery" / name).unlink(missing_ok=True)
         print(f"{len(pictures)} pictures, {total:,} bytes: {self.out / 'gallery.md'}")
+
+
+def shown_on(page: Path) -> set[str]:
+    """Names of the pictures of an earlier gallery."""
+    text = page.read_text(encoding="utf-8") if page.exists() else ""
+    return set(re.findall(r"\]\(gallery/([\w.-]+\.webp)\)", text))
 
 
 def stills_of(run: Run) -> list[Still]:

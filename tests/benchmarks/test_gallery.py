@@ -37,6 +37,19 @@ def test_the_page_shows_every_picture_that_was_drawn(drawn):
     assert f"python -m benchmarks.gallery {'/'}" in text
 
 
+def test_pictures_of_an_earlier_gallery_go_and_others_stay(run, tmp_path, monkeypatch):
+    monkeypatch.setattr(gallery, "stills_of", lambda _: [])  # Which take their time to draw.
+    monkeypatch.setattr(gallery, "keypoints_of", lambda _: Image.new("RGB", (20, 20)))
+    pictures = tmp_path / "gallery"
+    pictures.mkdir()
+    (tmp_path / "gallery.md").write_text("![Somebody](gallery/vanilla-s0-r1-l3.webp)\n")
+    for name in ("vanilla-s0-r1-l3.webp", "mine.webp"):
+        (pictures / name).write_bytes(b"")
+    assert gallery.main([str(run), "--out", str(tmp_path)]) == 0
+    drawn_now = f"{run.name}-keypoints.webp"
+    assert {path.name for path in pictures.iterdir()} == {drawn_now, "mine.webp"}
+
+
 def test_a_strike_is_shown_at_its_greatest_force_beside_canonical_motion(drawn):
     text = (drawn / "gallery.md").read_text()
     assert "at its greatest unwanted force" in text

@@ -118,3 +118,8 @@ def test_an_average_over_more_than_all_iterations_is_refused():
 def test_adversaries_that_go_all_the_way_back_are_refused():
     with pytest.raises(ValueError, match=r"share of the way to the human in \[0, 1\), got .* 1\.0"):
         Sharing(retreat=1.0)
+
+
+def test_a_way_back_from_below_every_lambda_is_refused():
+    with pytest.raises(ValueError, match=r"from a λ of 0 or more on, got retreat_from -1\.0"):
+        Sharing(retreat_from=-1.0)

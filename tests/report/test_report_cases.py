@@ -141,6 +141,26 @@ def test_humans_whose_marks_cover_each_other_are_chosen_one_after_the_other(
         assert set(chosen[:3]) == set(chosen[3:]) == names
 
 
+def test_humans_below_the_canonical_mark_are_chosen_by_clicking_it(visit, sample_payload, tmp_path):
+    payload = sample_payload(seeds=1, replays=0)
+    canonical = payload["frontier"]["canonical"]
+    covered = payload["frontier"]["points"][:2]
+    for point in covered:
+        point |= {"naturalness": 1.0, "adversarialness": canonical["adversarialness"]}
+    with visit(build_report(payload, tmp_path / "report.html")) as page:
+        chart = page.locator(".frontier-chart")
+        spot = chart.locator(".mark.canonical").bounding_box()
+        place = spot["x"] + spot["width"] / 2, spot["y"] + spot["height"] / 2
+        page.mouse.move(*place)
+        assert "2 found below: click for the next" in chart.locator(".tooltip").inner_text()
+        chosen = []
+        for _ in range(4):
+            page.mouse.click(*place)
+            chosen.append(chart.locator(".chosen").get_attribute("data-id"))
+        assert chosen[:2] == chosen[2:]
+        assert set(chosen) == {point["id"] for point in covered}
+
+
 def test_a_task_with_outcomes_of_its_own_and_without_forces_shows_what_it_has(
     visit, sample_payload, tmp_path
 ):

@@ -84,6 +84,12 @@ class Sharing:
                 f"retreat {self.retreat}"
             )
 
+        if not self.retreat_from >= 0:
+            raise ValueError(
+                "adversaries go back from a λ of 0 or more on, got retreat_from "
+                f"{self.retreat_from}"
+            )
+
     @property
     def slots(self) -> int:
         """λ that both play at a time."""

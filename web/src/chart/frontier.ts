@@ -5,7 +5,7 @@ import { h, responsive, s } from "../base/dom.js";
 import type { Signal } from "../base/signal.js";
 import { axisTitle, root, xAxis, yAxis, type Box } from "./axes.js";
 import { upperHull, type XY } from "./hull.js";
-import { interactive, type Mark } from "./marks.js";
+import { interactive, seeThrough, type Mark } from "./marks.js";
 import { Tooltip } from "./tooltip.js";
 
 export interface FrontierMark {
@@ -18,9 +18,15 @@ export interface FrontierMark {
   readonly lines: readonly string[];
 }
 
+/** Stands in the plane without being a human that was found. */
+interface Reference {
+  readonly at: XY;
+  readonly lines: readonly string[];
+}
+
 export interface FrontierData {
   readonly marks: readonly FrontierMark[];
-  readonly canonical: { readonly at: XY; readonly lines: readonly string[] } | null;
+  readonly canonical: Reference | null;
   readonly band: {
     readonly x: readonly number[];
     readonly mean: readonly number[];
@@ -68,21 +74,29 @@ export function frontierChart(host: HTMLElement, data: FrontierData, chosen: Sig
     );
     const guides = s("g", { class: "guides", "aria-hidden": "true" });
     const marks = data.marks.map((mark) => drawMark(mark, place(mark.at)));
-    const references = anchor(data, place, tooltip, width);
-    svg.append(guides, ...marks.map(({ element }) => element), ...references);
+    const references = data.canonical ? [anchor(data.canonical, place)] : [];
+    const above = references.map(({ element }) => element);
+    svg.append(guides, ...marks.map(({ element }) => element), ...above);
 
+    const choose = (id: string): void => { chosen.value = id; };
+    const leave = (): void => tooltip.hide();
     select = interactive(marks, {
-      choose: (id) => (chosen.value = id),
+      choose,
       peek: (mark, others) => {
         const lines = data.marks.find(({ id }) => id === mark.id)?.lines ?? [];
         tooltip.show(mark.at, others ? [...lines, `${others} more below: click again for the next`] : lines, width);
       },
-      leave: () => tooltip.hide(),
+      leave,
     });
+    for (const { element, at, lines } of references) {
+      const peek = (covered: number): void =>
+        tooltip.show(at, covered ? [...lines, `${covered} found below: click for the next`] : lines, width);
+      seeThrough(element, marks, { choose, peek, leave });
+    }
     guide = (id) => {
       const mark = marks.find((m) => m.id === id);
       guides.replaceChildren(...(mark ? crosshair(mark.at, box) : []));
-      if (mark && !mark.element.matches(":focus")) svg.append(mark.element, ...references);
+      if (mark && !mark.element.matches(":focus")) svg.append(mark.element, ...above);
     };
     select(chosen.value);
     guide(chosen.value);
@@ -125,18 +139,14 @@ function drawMark(mark: FrontierMark, at: XY): Mark {
   return { id: mark.id, element, at };
 }
 
-function anchor(data: FrontierData, place: (at: XY) => XY, tooltip: Tooltip, width: number): SVGElement[] {
-  if (!data.canonical) return [];
-  const at = place(data.canonical.at);
-  const lines = data.canonical.lines;
+function anchor({ at: there, lines }: Reference, place: (at: XY) => XY): Reference & { readonly element: SVGElement } {
+  const at = place(there);
   const element = s("g",
     { class: "mark canonical", transform: `translate(${at[0]},${at[1]})`, role: "img",
       "aria-label": lines.join(", ") },
     s("circle", { class: "hit", r: 11 }),
     s("path", { class: "shape", d: symbol(symbolTriangle, 110)() ?? "" }));
-  element.addEventListener("pointerenter", () => tooltip.show(at, lines, width));
-  element.addEventListener("pointerleave", () => tooltip.hide());
-  return [element];
+  return { at, lines, element };
 }
 
 function crosshair([x, y]: XY, box: Box): SVGElement[] {

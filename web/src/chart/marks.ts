@@ -61,6 +61,33 @@ export function interactive(marks: readonly Mark[], actions: Actions): (id: stri
   };
 }
 
+/**
+ * Makes `cover`, which is no choice itself, hand clicks on to the marks below it.
+ *
+ * @param peek Told how many marks lie below the pointer.
+ */
+export function seeThrough(
+  cover: SVGElement,
+  marks: readonly Mark[],
+  { choose, peek, leave }: Pick<Actions, "choose" | "leave"> & { readonly peek: (covered: number) => void },
+): void {
+  const point = (event: PointerEvent): void => {
+    const covered = below(marks, event).length;
+    cover.classList.toggle("covers", covered > 0);
+    peek(covered);
+  };
+  on(cover, {
+    click: (event) => {
+      const here = below(marks, event);
+      const top = here.at(-1);
+      if (top) choose(next(here, top).id);
+    },
+    pointerenter: point,
+    pointermove: point,
+    pointerleave: leave,
+  });
+}
+
 function below(marks: readonly Mark[], { clientX, clientY }: MouseEvent): Mark[] {
   const hit = document.elementsFromPoint(clientX, clientY);
   return marks.filter(({ element }) => hit.some((part) => element.contains(part)));
