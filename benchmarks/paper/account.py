@@ -28,7 +28,7 @@ def account(plan: Plan, places: Places, tables: Mapping[str, Sequence[Row]]) -> 
     return _TEMPLATE.read_text(encoding="utf-8").format(
         stamp=plan.stamp, command=plan.command, preset=plan.preset.name,
         seeds=len(plan.preset.seeds), robots=", ".join(map(str, plan.robot_seeds)),
-        scouts=f"{plan.scouting_seeds[0]} to {plan.scouting_seeds[-1]}",
+        scout=plan.scouting.name, scouts=" and ".join(map(str, plan.scouting.seeds)),
         episodes=plan.evaluation_episodes, complete=_complete(plan, rows),
         comparison=_comparison(rows), differences=_differences(tables["differences"]),
         verdicts="\n".join(f"- {line}" for line in verdicts(rows, tables["differences"])),

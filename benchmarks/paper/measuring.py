@@ -50,10 +50,7 @@ class Measuring:
     def scout(self, seed: int) -> Path:
         """Measures `vanilla` with search seeds of which no robot is judged; not kept."""
         robot = self.making.robot("vanilla", seed)
-        return self._search(
-            robot, seed, self._places.run(SCOUT, seed), self._plan.preset,
-            seeds=self._plan.scouting_seeds,
-        )  # fmt: skip
+        return self._search(robot, seed, self._places.run(SCOUT, seed), self._plan.scouting)
 
     def body(self, label: str, changes: Mapping[str, Any]) -> Path:
         """Measures the first `vanilla` robot with another person in the chair."""
@@ -82,14 +79,13 @@ class Measuring:
         out: Path,
         preset: Preset,
         *,
-        seeds: tuple[int, ...] | None = None,
         task: Task | None = None,
         canonical: Path | None = None,
     ) -> Path:
         human = str(self.making.pair(seed) / "human")
         with TerminalListener(f"{out.name}, robot seed {seed}") as listener:
             rigid.measure(
-                task or self._task, str(robot), human=human, out=out, preset=preset, seeds=seeds,
+                task or self._task, str(robot), human=human, out=out, preset=preset,
                 canonical=canonical, listener=listener,
             )  # fmt: skip
         load_frontier(out).report()

@@ -17,9 +17,9 @@ from rigid.robots.robust_gt import RobustSettings
 
 RECIPES = ("vanilla", "gleave", "palm", "robust-gt")
 """Of the paper's comparison, in its order; the first is what the others are held against."""
-SCOUTS = 100
-"""First search seed of the frontier that Robust GT learns from: no robot is judged by those. Ours.
-"""
+SCOUTS = (100, 101)
+"""Search seeds of the frontier that Robust GT learns from: no robot is judged by those. Two, one
+for each core of a small machine. Ours."""
 BODIES: Mapping[str, Mapping[str, Any]] = {
     "limits": {"impairment": "limits"},
     "weakness": {"impairment": "weakness"},
@@ -69,9 +69,13 @@ class Plan:
         return self.robot_seeds[0]
 
     @property
-    def scouting_seeds(self) -> tuple[int, ...]:
-        """Search seeds of the frontiers that Robust GT learns from."""
-        return tuple(range(SCOUTS, SCOUTS + len(self.preset.seeds)))
+    def scouting(self) -> Preset:
+        """Of the frontiers that Robust GT learns from.
+
+        The paper's own budget where it is used at all, since `standard` may find nobody between
+        sabotage and canonical play.
+        """
+        return replace(self.thorough or self.preset, seeds=SCOUTS)
 
 
 def full_plan(preset: Preset, robot_seeds: tuple[int, ...]) -> Plan:

@@ -13,6 +13,7 @@ from rigid.compute.listening import Silence
 from rigid.errors import UserError
 from rigid.policies.native import load_native
 from rigid.robots.robust_gt import (
+    NoTeachersError,
     RobustSettings,
     choose_adversaries,
     take_lesson,
@@ -96,13 +97,20 @@ def test_an_interrupted_robot_ends_like_an_undisturbed_one(run, tmp_path):
     assert same(tmp_path / "other", undisturbed)
 
 
-def test_a_run_without_an_adversary_in_the_range_is_refused(run):
+@pytest.mark.parametrize(
+    ("preset", "cure"),
+    [
+        ("demo", "measure with --preset paper, which finds more of them, or widen"),
+        ("paper", "search with more --seeds or --lambdas, or widen the range with --naturalness"),
+    ],
+)
+def test_a_run_without_an_adversary_in_the_range_is_refused_with_a_cure(run, preset, cure):
     settings = replace(SETTINGS, naturalness=(0.0, 1e-9))
-    frontier = json.loads((run / "frontier.json").read_text())
+    frontier = json.loads((run / "frontier.json").read_text()) | {"preset": preset}
     for adversary in frontier["points"]:
         adversary["naturalness"] = 0.5
     (run / "frontier.json").write_text(json.dumps(frontier))
-    with pytest.raises(UserError, match=r"no adversary of naturalness in \[0, 1e-09\]: widen it"):
+    with pytest.raises(NoTeachersError, match=rf"no adversary .* in \[0, 1e-09\]: {cure}"):
         take_lesson([run], settings)
 
 

@@ -70,6 +70,10 @@ class RobustSettings:
     from the 20th of 60 iterations on. Ours."""
 
 
+class NoTeachersError(UserError):
+    """The search found no adversary in the range of naturalness."""
+
+
 class Lesson(NamedTuple):
     """What is needed to go on with a measured robot."""
 
@@ -131,7 +135,8 @@ def take_lesson(
 
     Raises:
         UserError: A run is not finished or of another task, the robot is another one
-            than was measured or none that can go on learning, or there is nobody to learn from.
+            than was measured or none that can go on learning.
+        NoTeachersError: No adversary is in the range.
     """
     frontier = load_frontier(runs[-1])
     identity = read_settings(RunDirectory(runs[-1]))["identity"]
@@ -156,9 +161,13 @@ def take_lesson(
     ]
     if not chosen:
         low, high = settings.naturalness
-        raise UserError(
-            f"{runs[-1]} has no adversary of naturalness in [{low:g}, {high:g}]: widen it with "
-            "--naturalness, or search with more λ"
+        more = (
+            "search with more --seeds or --lambdas" if frontier.data["preset"] == "paper"
+            else "measure with --preset paper, which finds more of them"
+        )  # fmt: skip
+        raise NoTeachersError(
+            f"{runs[-1]} has no adversary of naturalness in [{low:g}, {high:g}]: {more}, or widen "
+            "the range with --naturalness"
         )
     adversaries = [
         load_policy(str(place / "adversaries" / point["id"]), task=task, agent="human")
