@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -28,7 +29,7 @@ def account(plan: Plan, places: Places, tables: Mapping[str, Sequence[Row]]) -> 
     return _TEMPLATE.read_text(encoding="utf-8").format(
         stamp=plan.stamp, command=plan.command, preset=plan.preset.name,
         seeds=len(plan.preset.seeds), robots=", ".join(map(str, plan.robot_seeds)),
-        scout=plan.scouting.name, scouts=" and ".join(map(str, plan.scouting.seeds)),
+        teachers=teachers(plan, places),
         episodes=plan.evaluation_episodes, complete=_complete(plan, rows),
         comparison=_comparison(rows), differences=_differences(tables["differences"]),
         verdicts="\n".join(f"- {line}" for line in verdicts(rows, tables["differences"])),
@@ -68,6 +69,23 @@ def _against(name: str, number: str, differences: Sequence[Row]) -> str:
     if high < 0:
         return f"{text}: **lower**."
     return f"{text}: **higher**." if low > 0 else f"{text}: cannot be told apart."
+
+
+def teachers(plan: Plan, places: Places) -> str:
+    """Of which search seeds the adversaries were that Robust GT learned from, by its own cards."""
+    said = []
+    for seed in plan.robot_seeds:
+        card = places.kept_policy("robust-gt", seed) / "policy.json"
+        if card.exists():
+            chosen = json.loads(card.read_text(encoding="utf-8"))["provenance"]["adversaries"]
+            seeds = sorted({int(one["id"].split("-")[0].removeprefix("s")) for one in chosen})
+            said.append(f"robot {seed} from {len(chosen)} of {', '.join(map(str, seeds))}")
+    if not said:
+        return "No robot of Robust GT stands yet."
+    return (
+        f"Robust GT learned from adversaries of other search seeds: {'; '.join(said)}. It is "
+        "judged, as all others, by seeds that no training saw."
+    )
 
 
 def _complete(plan: Plan, rows: Sequence[Row]) -> str:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+
+from benchmarks.paper.account import teachers
 from benchmarks.paper.measuring import Measuring
 from benchmarks.paper.places import Places
 from benchmarks.paper.writing import write_all
@@ -22,3 +25,13 @@ def test_tables_figures_and_account_are_written_from_what_stands_and_again_alike
     before = {name: (places.results / name).read_bytes() for name in names}
     write_all(PLAN, places, measuring)
     assert {name: (places.results / name).read_bytes() for name in names} == before
+
+
+def test_the_account_names_the_seeds_that_robust_gt_learned_from_by_its_card(tmp_path):
+    places = Places(tmp_path / "raw", tmp_path / "results")
+    assert teachers(PLAN, places) == "No robot of Robust GT stands yet."
+    card = places.kept_policy("robust-gt", 1) / "policy.json"
+    card.parent.mkdir(parents=True)
+    found = [{"id": name} for name in ("s101-r3-l3", "s100-r1-l2", "s101-r1-l1")]
+    card.write_text(json.dumps({"provenance": {"adversaries": found}}))
+    assert "robot 1 from 3 of 100, 101. It is judged" in teachers(PLAN, places)
