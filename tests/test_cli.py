@@ -265,6 +265,19 @@ def test_an_interrupted_process_ends_before_libraries_can_crash_at_its_exit():
     assert (done.returncode, done.stdout, done.stderr) == (130, "shown", "")
 
 
+def test_an_interrupted_process_leaves_no_lock_of_its_workers_for_others_to_clear_away():
+    """A worker's queues may still be held by a thread that ends a moment later."""
+    script = (
+        "import loky.backend; from rigid import cli; lock = loky.backend.get_context().Lock()\n"
+        "cli.run = lambda: cli.INTERRUPTED\n"
+        "cli.main()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=120
+    )
+    assert (done.returncode, done.stderr) == (130, "")
+
+
 def test_a_command_that_is_told_to_end_ends_as_after_ctrl_c_with_all_its_processes(tmp_path):
     """A scheduler sends SIGTERM to every process of a job."""
     asked = ["frontier", "--preset", "demo", "--out", str(tmp_path)]

@@ -36,7 +36,7 @@ from rigid.commands.train import TRAIN
 from rigid.commands.verifying import VerifyCommand
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
-from rigid.interrupts import terminated_as_interrupted
+from rigid.interrupts import give_back_semaphores, terminated_as_interrupted
 from rigid.serving.environment import shut_working_directory
 
 INTERRUPTED = 130
@@ -89,6 +89,7 @@ def main() -> None:
         with suppress(OSError):
             sys.stdout.flush()
             sys.stderr.flush()
+        give_back_semaphores()
         os._exit(code)
     sys.exit(code)
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import signal
 import time
 
 import pytest
+from rich.console import Console
 from rich.progress import Progress as Bar
 from rich.progress import TaskID
 
@@ -100,6 +102,21 @@ def test_a_bar_of_work_that_was_stopped_stays_where_it_was(capsys):
     err = capsys.readouterr().err
     assert "25 %" in err
     assert "done" not in err
+
+
+def test_an_interrupt_while_a_bar_is_drawn_or_ended_ends_it_as_any_other(monkeypatch):
+    """`rich` cannot end a bar that it has not drawn to the end."""
+    shown: list[bool] = []
+
+    def interrupted(_: Console, show: bool = True) -> bool:
+        shown.append(show)
+        signal.raise_signal(signal.SIGINT)
+        return True
+
+    monkeypatch.setattr(Console, "show_cursor", interrupted)
+    with pytest.raises(KeyboardInterrupt), TerminalListener("toy") as listener:
+        listener.begin(WORK)
+    assert shown == [False, True]
 
 
 def test_a_listener_of_which_nothing_was_asked_leaves_nothing(capsys):

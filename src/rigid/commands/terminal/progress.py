@@ -19,6 +19,7 @@ from rich.text import Text
 
 from rigid.commands.parsing import spoken
 from rigid.commands.terminal.pace import Pace
+from rigid.interrupts import interrupts_held
 
 if TYPE_CHECKING:
     from rigid.compute.listening import Workload
@@ -95,10 +96,25 @@ def clock(seconds: float) -> str:
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
 
 
+@final
+class _Whole(Progress):
+    """Bars that an interrupt finds drawn or not drawn: half drawn, they could not be ended."""
+
+    def start(self) -> None:
+        """Draws them."""
+        with interrupts_held():
+            super().start()
+
+    def stop(self) -> None:
+        """Draws them for the last time, and gives the cursor back."""
+        with interrupts_held():
+            super().stop()
+
+
 def bar_of(console: Console, *columns: ProgressColumn) -> Progress:
     """A bar with a description, and `columns` after it."""
     shown = (TextColumn("{task.description}"), BarColumn(), *columns)
-    return Progress(*shown, console=console, speed_estimate_period=_MEMORY)
+    return _Whole(*shown, console=console, speed_estimate_period=_MEMORY)
 
 
 @contextmanager

@@ -30,6 +30,7 @@ from rigid.compute.search.group_plan import GroupPlan
 from rigid.compute.search.seed_search import SeedSearch
 from rigid.cores import cores
 from rigid.errors import UserError
+from rigid.interrupts import interrupts_held
 
 _PATIENCE = 0.5  # Seconds until the next look at what workers say.
 
@@ -58,7 +59,8 @@ class Processes:
 
         with TemporaryDirectory(prefix="rigid-") as desk:
             settling = (Path(desk), cores()[: self.count])
-            pool = ProcessPoolExecutor(self.count, initializer=settle, initargs=settling)
+            with interrupts_held():
+                pool = ProcessPoolExecutor(self.count, initializer=settle, initargs=settling)
             try:
                 yield ProcessWorkers(self.count, pool, Path(desk))
             finally:
@@ -66,7 +68,7 @@ class Processes:
 
 
 @contextmanager
-def _interrupts_held() -> Iterator[None]:
+def _starting() -> Iterator[None]:
     """Keeps Ctrl-C until the end of the block, and for good from processes that start in it.
 
     The terminal sends it to all of them, and who still loads modules would answer with a traceback.
@@ -74,7 +76,8 @@ def _interrupts_held() -> Iterator[None]:
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
-        yield
+        with interrupts_held():  # Threads of JAX let through what this one does not.
+            yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
@@ -100,7 +103,7 @@ class ProcessWorkers:
         """Hands a group to the next free process."""
         progress_file(search.inputs.directory, plan).unlink(missing_ok=True)  # Of an earlier one.
         errand = leave_errand(self._desk, search.inputs, plan)
-        with _interrupts_held():
+        with _starting():
             future: Future[None] = self._pool.submit(work, errand, os.getpid())
         self._heard[future] = Progress()
         return future
