@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,11 +15,13 @@ from benchmarks.paper.plan import RECIPES, Plan
 from benchmarks.paper.writing import write_all
 from benchmarks.study import say
 from rigid.commands.parsing import spoken
-from rigid.compute.budget import FIXED_SECONDS, training_speed
+from rigid.compute.budget import FIXED_SECONDS, ROBOT_LEARNING_SECONDS, training_speed
+from rigid.cores import cores
 from rigid.learning.cooptimisation import CoOptimisationSettings
 from rigid.learning.personalisation import PersonalisationSettings
 from rigid.presets import Preset
 from rigid.robots.robust_gt import NoTeachersError
+from rigid.tasks.protocol import Task
 from rigid.tasks.registry import make_task
 
 TASK = "itch-scratching"
@@ -30,7 +32,10 @@ class Job:
     """One training or one frontier."""
 
     name: str
-    env_steps: int
+    training_steps: int
+    """Of a robot."""
+    search_steps: int
+    """Of adversaries, whose seeds have a core each."""
     is_done: Callable[[], bool]
     do: Callable[[], object]
 
@@ -51,9 +56,7 @@ def run(plan: Plan, *, out: Path, results: Path, spend: float | None = None) -> 
     measuring = Measuring(plan, places, task)
     missing = [job for job in jobs(plan, measuring, task.horizon) if not job.is_done()]
     if missing:
-        speed = training_speed(task)
-        seconds = sum(FIXED_SECONDS + job.env_steps / speed for job in missing)
-        say(f"{len(missing)} jobs to go: about {spoken(seconds)}")
+        say(f"{len(missing)} jobs to go: about {spoken(_expected_seconds(plan, missing, task))}")
     begun = time.monotonic()
     for number, job in enumerate(missing, start=1):
         if spend is not None and time.monotonic() - begun > spend:
@@ -66,6 +69,17 @@ def run(plan: Plan, *, out: Path, results: Path, spend: float | None = None) -> 
             say(f"left out: {error}")
     write_all(plan, places, measuring)
     say(f"written: {results / 'README.md'}")
+
+
+def _expected_seconds(plan: Plan, missing: Sequence[Job], task: Task) -> float:
+    """How long all of them take together [s]."""
+    workers = min(len(cores()), len(plan.preset.seeds))
+    training = training_speed(task, ROBOT_LEARNING_SECONDS)
+    searching = training_speed(task, workers=workers)
+    return sum(
+        FIXED_SECONDS + job.training_steps / training + job.search_steps / searching
+        for job in missing
+    )
 
 
 def jobs(plan: Plan, measuring: Measuring, horizon: int) -> Iterator[Job]:
@@ -90,7 +104,7 @@ def jobs(plan: Plan, measuring: Measuring, horizon: int) -> Iterator[Job]:
 def _pair(plan: Plan, measuring: Measuring, seed: int, horizon: int) -> Job:
     making, budget = measuring.making, plan.budgets.pair
     return Job(
-        f"pair {seed}", budget.iterations * budget.episodes * horizon,
+        f"pair {seed}", budget.iterations * budget.episodes * horizon, 0,
         lambda: making.has_pair(seed), lambda: making.pair(seed),
     )  # fmt: skip
 
@@ -98,14 +112,14 @@ def _pair(plan: Plan, measuring: Measuring, seed: int, horizon: int) -> Job:
 def _training(plan: Plan, measuring: Measuring, name: str, seed: int, horizon: int) -> Job:
     making = measuring.making
     return Job(
-        f"robot {name} {seed}", _steps(plan, name, horizon),
+        f"robot {name} {seed}", *_steps(plan, name, horizon),
         lambda: making.has_robot(name, seed), lambda: making.robot(name, seed),
     )  # fmt: skip
 
 
 def _frontier(measuring: Measuring, name: str, seed: int, env_steps: int) -> Job:
     return Job(
-        f"frontier of {name} {seed}", env_steps,
+        f"frontier of {name} {seed}", 0, env_steps,
         lambda: measuring.has(name, seed), lambda: measuring.robot(name, seed),
     )  # fmt: skip
 
@@ -114,7 +128,7 @@ def _body(
     plan: Plan, measuring: Measuring, label: str, changes: Mapping[str, Any], env_steps: int
 ) -> Job:
     return Job(
-        f"frontier of vanilla {plan.first} with {label}", env_steps,
+        f"frontier of vanilla {plan.first} with {label}", 0, env_steps,
         lambda: measuring.has(body_run(label), plan.first),
         lambda: measuring.body(label, changes),
     )  # fmt: skip
@@ -122,21 +136,23 @@ def _body(
 
 def _thoroughly(plan: Plan, measuring: Measuring, name: str, preset: Preset, horizon: int) -> Job:
     return Job(
-        f"frontier of {name} {plan.first} with preset {preset.name}", preset.env_steps(horizon),
+        f"frontier of {name} {plan.first} with preset {preset.name}",
+        0, preset.env_steps(horizon),
         lambda: measuring.has(f"{name}{THOROUGH}", plan.first),
         lambda: measuring.thoroughly(name, plan.first, preset),
     )  # fmt: skip
 
 
-def _steps(plan: Plan, name: str, horizon: int) -> int:
-    """Environment steps of a robot's training, with the searches that belong to it."""
+def _steps(plan: Plan, name: str, horizon: int) -> tuple[int, int]:
+    """Environment steps of a robot's training, and of the searches that belong to it."""
     budgets = plan.budgets
     of_recipes: dict[str, list[CoOptimisationSettings | PersonalisationSettings]] = {
         "vanilla": [budgets.vanilla],
         "gleave": [budgets.gleave.population, budgets.gleave.personalisation],
         "palm": [budgets.palm.diverse, budgets.palm.palm.personalisation],
+        TWICE: [budgets.robust.training] * 2,
     }
     stages = of_recipes.get(name, [budgets.robust.training])
-    steps = sum(stage.iterations * stage.episodes * horizon for stage in stages)
+    training = sum(stage.iterations * stage.episodes * horizon for stage in stages)
     searches = {"robust-gt": [plan.scouting], TWICE: [plan.preset]}.get(name, [])
-    return steps + sum(search.env_steps(horizon) for search in searches)
+    return training, sum(search.env_steps(horizon) for search in searches)

@@ -32,12 +32,13 @@ _LEAST_ITERATIONS = 20
 _PROBE_WORLDS, _PROBE_STEPS, _PROBE_SECONDS = 192, 20, 0.5
 
 
-def training_speed(task: Task, learning: float = LEARNING_SECONDS) -> float:
-    """Expected training steps per second of one process, from half a second of stepping.
+def training_speed(task: Task, learning: float = LEARNING_SECONDS, *, workers: int = 1) -> float:
+    """Expected training steps per second, from half a second of stepping.
 
     Args:
         task: Any.
-        learning: Time that learning takes for each step [s].
+        learning: Time that learning takes one process for each step [s].
+        workers: One process on all cores, or so many with a core each.
     """
     world = task.make_world(_PROBE_WORLDS)
     world.reset(np.arange(_PROBE_WORLDS))
@@ -47,7 +48,7 @@ def training_speed(task: Task, learning: float = LEARNING_SECONDS) -> float:
     while steps < _PROBE_STEPS and seconds < _PROBE_SECONDS:
         world.step(robot, human)
         steps, seconds = steps + 1, time.perf_counter() - begun
-    return working_speed(_PROBE_WORLDS * steps / seconds, learning=learning)
+    return working_speed(_PROBE_WORLDS * steps / seconds, workers, learning=learning)
 
 
 def working_speed(

@@ -17,7 +17,7 @@ def test_a_robot_with_nobody_to_learn_from_is_left_out_and_said(tmp_path, monkey
         raise NoTeachersError("scout has no adversary")
 
     def job(name, do):
-        return running.Job(name, 1, lambda: False, do)
+        return running.Job(name, 1, 0, lambda: False, do)
 
     given = [job("robust-gt", refuse), job("gleave", lambda: done.append("gleave"))]
     monkeypatch.setattr(running, "jobs", lambda *_: given)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -199,6 +200,17 @@ def test_check_exits_with_1_when_an_episode_is_bad(rigid, toys, recorded, tmp_pa
     assert code == 1
     assert "LEFT OUT: the same as episode '1'" in text
     assert text.endswith("3 of 4 episodes are good\n")
+
+
+def test_export_runs_no_program_that_only_the_file_names(rigid, recorded, tmp_path):
+    found = load_episodes(recorded, task=FilmedReach())
+    task = {**found.task, "name": f"exec:touch {tmp_path / 'ran'}"}
+    save_episodes(tmp_path / "evil.npz", replace(found, task=task))
+    view = ("--robot", "builtin:vanilla", "--out", "toy/reach-v0")
+    code, _, err = rigid("data", "export", tmp_path / "evil.npz", *view)
+    assert code == 2
+    assert "which would run code: if you trust whoever made the file, say so with --task" in err
+    assert not (tmp_path / "ran").exists()
 
 
 def test_export_and_import_of_a_table_keep_the_hash(rigid, toys, recorded, tmp_path):

@@ -108,6 +108,12 @@ def _task(command: ExportCommand, episodes: CanonicalEpisodes) -> Task:
 
     task = None if command.task is not None else task_from_description(episodes.task)
     if task is None:
-        task = make_task(command.task or str(episodes.task.get("name")))
+        name = command.task or str(episodes.task.get("name"))
+        if command.task is None and ":" in name:  # As `exec:COMMAND`, by whoever made the file.
+            raise UserError(
+                f"{command.file} names its task {name!r}, which would run code: if you trust "
+                "whoever made the file, say so with --task"
+            )
+        task = make_task(name)
     check_task(episodes.task, episodes.feature_names, task, where=command.file)
     return task
