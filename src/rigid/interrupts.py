@@ -59,4 +59,5 @@ def give_back_semaphores() -> None:
         deadline = time.monotonic() + _PATIENCE
         for thread in set(threading.enumerate()) - {threading.current_thread()}:
             thread.join(max(0.0, deadline - time.monotonic()))  # It may be giving some back itself.
-        util._run_finalizers(0)  # noqa: SLF001 - Public is only what ends the interpreter with it.
+        # Only the end of the interpreter calls it, and that is where libraries would crash.
+        util._run_finalizers(0)  # noqa: SLF001 - No public function gives semaphores back.
