@@ -167,9 +167,16 @@ def _player(name: str, seed: int) -> str:
 def _bodies(rows: Sequence[Row]) -> str:
     if len(rows) < 2:  # The reference person alone compares nothing.
         return _NOTHING
-    heads = ("person", "success, canonical", "worst at ≥ .9 ↓", "mean over [.8, 1] ↓", "AUC ↓")
+    heads = (
+        "person",
+        "success, canonical",
+        "adversarialness, canonical",
+        "worst at ≥ .9 ↓",
+        "mean over [.8, 1] ↓",
+        "AUC ↓",
+    )
     return markdown(heads, [
-        [row["person"], f"{row['success']:.2f}",
+        [row["person"], f"{row['success']:.2f}", f"{row['canonical_adversarialness']:.3f}",
          *(_interval(row, column) for column in ("worst_at_0.9", "auc_natural", "auc"))]
         for row in rows
     ])  # fmt: skip

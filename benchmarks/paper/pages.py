@@ -5,10 +5,12 @@ from __future__ import annotations
 import html
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import takewhile
 from pathlib import Path
 
 from benchmarks.paper.failing import figure_of
 from benchmarks.paper.places import Places
+from benchmarks.paper.plan import RECIPES
 from benchmarks.paper.tables import TITLES, Measured
 from rigid.commands.measured import load_measured
 from rigid.files import write_atomically
@@ -64,17 +66,23 @@ def write_pages(places: Places, measured: Measured) -> None:
 
 
 def _write_comparison(places: Places, measured: Measured) -> None:
-    """Of the robot seeds that every method has, since robots are compared in pairs."""
-    seeds = sorted(set.intersection(*(set(robots) for robots in measured.values())))
-    if not seeds:
-        return
+    """Of the robot seeds that every recipe has, since robots are compared in pairs.
+
+    Variants, which have the first robot alone, stand beside them with what they have.
+    """
+    recipes = [set(robots) for name, robots in measured.items() if name in RECIPES]
+    seeds = sorted(set.intersection(*recipes)) if recipes else []
     methods = {}
-    for name in measured:
-        kept = [(load_measured(places.kept_run(name, seed)), seed) for seed in seeds]
+    for name, robots in measured.items():
+        shared = list(takewhile(robots.__contains__, seeds))  # Robots pair by their place.
+        kept = [(load_measured(places.kept_run(name, seed)), seed) for seed in shared]
         methods[TITLES.get(name, name)] = [
             (replace(frontier, directory=places.run(name, seed)), identity)
             for (frontier, identity), seed in kept
         ]
+    methods = {title: robots for title, robots in methods.items() if robots}
+    if not methods:
+        return
     standings = standings_of(methods)
     path = places.results / "comparison.html"
     write_atomically(path, comparison_page(standings, notes_of(standings), at=path).encode())

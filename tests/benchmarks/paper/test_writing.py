@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 from benchmarks.paper.account import teachers
+from benchmarks.paper.making import SCRATCH
 from benchmarks.paper.measuring import Measuring
 from benchmarks.paper.places import Places
 from benchmarks.paper.writing import write_all
@@ -25,6 +26,14 @@ def test_tables_figures_and_account_are_written_from_what_stands_and_again_alike
     before = {name: (places.results / name).read_bytes() for name in names}
     write_all(PLAN, places, measuring)
     assert {name: (places.results / name).read_bytes() for name in names} == before
+
+
+def test_a_variant_of_one_robot_takes_none_from_the_page_of_the_others(tmp_path):
+    places = Places(tmp_path / "raw", tmp_path / "results")
+    for name, seed in (("vanilla", 0), ("vanilla", 1), (SCRATCH, 0)):
+        keep(places, name, seed, {0: 0.5, 1: 0.6})
+    write_all(PLAN, places, Measuring(PLAN, places, make_task("itch-scratching")))
+    assert "3 robots, preset" in (places.results / "comparison.html").read_text()
 
 
 def test_the_account_names_the_seeds_that_robust_gt_learned_from_by_its_card(tmp_path):
