@@ -57,3 +57,10 @@ def same(one, other):
     """Whether two policy directories hold the same weights."""
     mine, theirs = (load_native(path).policy.parameters for path in (one, other))
     return all(jax.tree.leaves(jax.tree.map(np.array_equal, mine, theirs)))
+
+
+def kinship(one, other):
+    """Correlation of all weights of two policies; of strangers with as few as here up to 0.6."""
+    mine, theirs = (load_native(path).policy.parameters.network for path in (one, other))
+    flat = [np.concatenate([np.ravel(layer["w"]) for layer in each]) for each in (mine, theirs)]
+    return np.corrcoef(*flat)[0, 1]

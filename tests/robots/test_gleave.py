@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from rigid.data.episodes import load_episodes
 from rigid.errors import UserError
 from rigid.policies.native import load_native
 from rigid.robots.gleave import GleaveSettings, train_gleave
-from tests.robots.quick import PAIR, VANILLA, Seen, names, same
+from tests.robots.quick import PAIR, VANILLA, Seen, kinship, names, same
 from tests.toys import ToyReach
 
 SETTINGS = GleaveSettings(population=PAIR, personalisation=VANILLA)
@@ -16,9 +18,9 @@ SETTINGS = GleaveSettings(population=PAIR, personalisation=VANILLA)
 
 @pytest.fixture(scope="module")
 def train(pair):
-    def run(out, *, population=None, report=None):
+    def run(out, *, population=None, report=None, settings=SETTINGS):
         train_gleave(
-            ToyReach(), SETTINGS, pair=pair, seed=0, out=out, canonical_episodes=5,
+            ToyReach(), settings, pair=pair, seed=0, out=out, canonical_episodes=5,
             report_population=population or Seen(), report=report or Seen(),
         )  # fmt: skip
         return out
@@ -45,6 +47,19 @@ def test_the_synthetic_human_is_the_pairs_and_the_others_are_not(robot, pair):
     assert canonical.provenance["human"] == synthetic
     humans = {load_native(robot / "population" / f"human-{i}").card.sha256 for i in (1, 2)}
     assert len(humans | {synthetic}) == 3
+
+
+@pytest.mark.parametrize("name", ["human-1", "human-2"])
+def test_with_the_pairs_own_seed_the_others_are_no_relatives_of_its_human(robot, pair, name):
+    assert abs(kinship(robot / "population" / name, pair / "human")) < 0.9
+
+
+def test_with_other_settings_a_finished_population_is_not_taken_over(train, tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        train(tmp_path, report=Seen(last=2))
+    shorter = replace(SETTINGS, population=replace(PAIR, iterations=2))
+    with pytest.raises(UserError, match=r"human-2 is from a training with other settings: choose"):
+        train(tmp_path, settings=shorter)
 
 
 def test_interrupted_in_either_stage_it_ends_like_an_undisturbed_one(train, robot, tmp_path):

@@ -85,7 +85,7 @@ def test_interrupted_in_either_stage_it_ends_like_an_undisturbed_one(train, robo
     with pytest.raises(KeyboardInterrupt):
         train(tmp_path, diverse=diverse, report=report)
     assert diverse.iterations == [10, 11, 12, 13]  # From the last checkpoint on.
-    with pytest.raises(UserError, match="holds a pair of other settings: choose another directory"):
+    with pytest.raises(UserError, match="is from a training with other settings: choose another"):
         train(tmp_path, recipe=replace(RECIPE, diverse=replace(PAIR, iterations=1)))
     diverse, report = Seen(), Seen()
     train(tmp_path, diverse=diverse, report=report)

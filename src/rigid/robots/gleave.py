@@ -26,15 +26,17 @@ from rigid.learning.personalisation import (
 )
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import load_policy, policy_hash
-from rigid.policies.native import CARD_FILE, Agent, save_policy
+from rigid.policies.native import Agent, save_policy
 from rigid.robots.storing import (
     Checkpoint,
     Report,
+    already_made,
     one_of_pair,
     privileged_view,
     provenance,
     refuse_finished,
     store_robot,
+    stream_of,
 )
 from rigid.tasks.protocol import Task
 
@@ -114,28 +116,25 @@ class _Population:
         self, synthetic: GaussianPolicy, seed: int, made_by: dict[str, object], report: Report
     ) -> None:
         """Co-optimises it; a finished one is left as it is."""
-        if (self._place / self._last / CARD_FILE).exists():
-            return
         privileged = privileged_view(self._task)
+        last, world = (self.humans[-1], self._task) if self.humans else ("robot", privileged)
+        if already_made(self._place / last, world, made_by):  # Who finds it may rely on all.
+            return
+        stream = stream_of(seed, _POPULATION)
         checkpoint = Checkpoint(self._place, self._task, dict(made_by))
-        fresh = start_team(privileged, self._settings, seed, humans=len(self.humans))
+        fresh = start_team(privileged, self._settings, stream, humans=len(self.humans))
         start = checkpoint.resume(fresh)
         report.begin(privileged, self._settings.episodes, start[1])
 
         team = co_optimise(
             report.watch(privileged), self._settings,
-            seed=seed, start=start, grown_up=[synthetic],
+            seed=stream, start=start, grown_up=[synthetic],
             report=checkpoint.keeping(report),
         )  # fmt: skip
         self._store("robot", "robot", team.robot, privileged, made_by)
         for name, learner in zip(self.humans, team.humans, strict=True):
             self._store(name, "human", learner, self._task, made_by)
         checkpoint.drop()
-
-    @property
-    def _last(self) -> str:
-        """Stored last: who finds it may rely on all."""
-        return self.humans[-1] if self.humans else "robot"
 
     def load(self, name: str, agent: Agent, task: Task) -> GaussianPolicy:
         policy = load_policy(str(self._place / name), task=task, agent=agent)

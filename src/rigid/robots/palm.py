@@ -12,8 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from rigid.errors import UserError
-from rigid.files import json_text
 from rigid.learning.cooptimisation import CoOptimisationSettings
 from rigid.learning.motion import shown_columns
 from rigid.learning.palm import (
@@ -27,11 +25,11 @@ from rigid.learning.palm import (
 )
 from rigid.learning.personalisation import Partner
 from rigid.policies.loading import policy_hash
-from rigid.policies.native import CARD_FILE, load_card
 from rigid.robots.pair import train_pair
 from rigid.robots.storing import (
     Checkpoint,
     Report,
+    already_made,
     one_of_pair,
     privileged_view,
     provenance,
@@ -135,15 +133,5 @@ def _train_diverse(
     task: Task, settings: CoOptimisationSettings, *, seed: int, out: Path, report: Report
 ) -> None:
     """Co-optimises the diverse pair; a finished one of the same making is left as it is."""
-    if not (out / "human" / CARD_FILE).exists():
+    if not already_made(out / "human", task, provenance("co-optimize", settings, seed)):
         train_pair(task, settings, seed=seed, out=out, report=report)
-        return
-    card = load_card(out / "human")
-    made = {"task": dict(card.task), **card.provenance}
-    if json_text(made) != json_text({
-        "task": dict(task.describe()), **provenance("co-optimize", settings, seed)
-    }):  # fmt: skip
-        raise UserError(
-            f"{out} holds a pair of other settings: choose another directory with --out, or the "
-            "same options"
-        )

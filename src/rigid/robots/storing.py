@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
 import jax.numpy as jnp
+import numpy as np
 
 from rigid._version import __version__
 from rigid.compute.run.checkpoint import load_tree, save_tree
@@ -26,7 +27,7 @@ from rigid.learning.cooptimisation import Progress
 from rigid.policies.architecture import NativePolicy
 from rigid.policies.gaussian import GaussianPolicy
 from rigid.policies.loading import load_policy, policy_hash
-from rigid.policies.native import CARD_FILE, Agent, save_policy
+from rigid.policies.native import CARD_FILE, Agent, load_card, save_policy
 from rigid.policies.protocol import Policy
 from rigid.tasks.protocol import Task
 
@@ -146,6 +147,41 @@ def privileged_view(task: Task) -> Task:
 def provenance(recipe: str, settings: Any, seed: int) -> dict[str, Any]:
     """The part of a card that says how a policy was made."""
     return {"recipe": recipe, "seed": seed, "settings": asdict(settings), "rigid": __version__}
+
+
+def stream_of(seed: int, name: str) -> int:
+    """The seed of a training beside the pair's, so that its humans are strangers to the pair's.
+
+    With the pair's own seed a second co-optimisation would begin with the first's networks and
+    episodes, and its humans would end as their relatives.
+
+    Args:
+        seed: Of the robot, which often is that of its pair.
+        name: Of the training.
+
+    Returns:
+        A seed below 2**32, of which the same `seed` and `name` give the same.
+    """
+    return int(np.random.SeedSequence([seed, *name.encode()]).generate_state(1)[0])
+
+
+def already_made(place: Path, task: Task, made_by: dict[str, Any]) -> bool:
+    """Whether an earlier stage's policy lies there, of the same task and making.
+
+    Raises:
+        UserError: One of another task or making lies there, or a damaged one.
+    """
+    if not (place / CARD_FILE).exists():
+        return False
+    card = load_card(place)
+    if json_text({"task": dict(card.task), **card.provenance}) != json_text(
+        {"task": dict(task.describe()), **made_by}
+    ):
+        raise UserError(
+            f"{place} is from a training with other settings: choose another directory with --out, "
+            "or the same options"
+        )
+    return True
 
 
 def refuse_finished(out: Path) -> None:
