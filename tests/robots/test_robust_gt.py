@@ -19,7 +19,7 @@ from rigid.robots.robust_gt import (
     take_lesson,
     train_robust_gt,
 )
-from rigid.robots.rounds import seeds_not_used, train_in_rounds
+from rigid.robots.rounds import Manner, seeds_not_used, train_in_rounds
 from rigid.tasks import registry
 from tests.compute.tiny import TINY, FilmedReach, hasten_referees
 from tests.robots.quick import VANILLA, Seen, names, same
@@ -136,17 +136,17 @@ def test_a_robot_that_the_user_names_may_be_code_and_one_that_the_run_names_may_
         take_lesson([run], SETTINGS)
 
 
+def go_on(run, out, *, settings=SETTINGS):
+    return train_in_rounds(
+        run, settings, replace(TINY, seeds=(0,)), rounds=2, seed=0, out=out,
+        canonical_episodes=5, robot=None, training=lambda _: nullcontext(Seen()),
+        searching=lambda _: nullcontext(Silence()),
+    )  # fmt: skip
+
+
 def test_two_rounds_search_the_robot_between_with_seeds_of_their_own(run, tmp_path):
     out = tmp_path / "robust"
-
-    def go_on():
-        return train_in_rounds(
-            run, SETTINGS, replace(TINY, seeds=(0,)), rounds=2, seed=0, out=out,
-            canonical_episodes=5, robot=None, training=lambda _: nullcontext(Seen()),
-            searching=lambda _: nullcontext(Silence()),
-        )  # fmt: skip
-
-    runs = go_on()
+    runs = go_on(run, out)
     assert runs == [run, out / "round-1" / "frontier"]
     between = json.loads((runs[1] / "settings.json").read_text())
     assert between["seeds"] == [1]
@@ -155,4 +155,21 @@ def test_two_rounds_search_the_robot_between_with_seeds_of_their_own(run, tmp_pa
     assert learned_from["from"] == load_native(out / "round-1" / "robot").card.sha256
     assert {one["run"] for one in learned_from["adversaries"]} == {"run", "frontier"}
     with pytest.raises(UserError, match="already holds a robot"):
-        go_on()
+        go_on(run, out)
+
+
+def test_rounds_search_as_the_run_did_that_they_begin_with(run, tmp_path):
+    settings = json.loads((run / "settings.json").read_text())
+    name = FilmedReach().feature_names[0]
+    settings["identity"] |= {"features": name, "measure": "kl", "lambdas": [0.5]}
+    settings["identity"]["adversary"]["memory"] = 2
+    (run / "settings.json").write_text(json.dumps(settings))
+    _, between = go_on(run, tmp_path / "robust")
+    assert Manner.of(between) == Manner(name, "kl", 2, (0.5,))
+
+
+def test_a_round_of_other_settings_is_not_gone_on_from(run, tmp_path):
+    train(take_lesson([run], SETTINGS), tmp_path / "robust" / "round-1" / "robot")
+    other = replace(SETTINGS, share=0.4)
+    with pytest.raises(UserError, match=r"round-1.robot is from a training with other settings"):
+        go_on(run, tmp_path / "robust", settings=other)

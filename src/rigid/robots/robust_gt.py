@@ -203,10 +203,7 @@ def train_robust_gt(
     refuse_finished(out)
     task, privileged = lesson.task, privileged_view(lesson.task)
     training = replace(settings.training, memory=lesson.robot.memory, hidden=_hidden(lesson.robot))
-    made_by = provenance("robust-gt", settings, seed) | {
-        "human": policy_hash(lesson.human), "from": policy_hash(lesson.robot),
-        "adversaries": list(lesson.found),
-    }  # fmt: skip
+    made_by = making_of(lesson, settings, seed)
     checkpoint = Checkpoint(out, task, made_by, beside=beside)
     fresh = (
         start_robot(task, privileged, training, seed)
@@ -226,6 +223,14 @@ def train_robust_gt(
         out=out, seed=seed, canonical_episodes=canonical_episodes, made_by=made_by,
     )  # fmt: skip
     checkpoint.drop()
+
+
+def making_of(lesson: Lesson, settings: RobustSettings, seed: int) -> dict[str, Any]:
+    """The part of a card that says how a robot was made of a lesson."""
+    return provenance("robust-gt", settings, seed) | {
+        "human": policy_hash(lesson.human), "from": policy_hash(lesson.robot),
+        "adversaries": list(lesson.found),
+    }  # fmt: skip
 
 
 def _partners(lesson: Lesson, settings: RobustSettings) -> list[Partner]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -18,14 +19,34 @@ from rigid.compute.return_range import stored_range
 from rigid.compute.run.directory import RunDirectory, read_settings
 from rigid.compute.subject import Subject
 from rigid.frontier.result import load_frontier
-from rigid.policies.native import CARD_FILE
 from rigid.presets import Preset
-from rigid.robots.robust_gt import RobustSettings, take_lesson, train_robust_gt
-from rigid.robots.storing import Report, open_training, refuse_finished
+from rigid.robots.robust_gt import RobustSettings, making_of, take_lesson, train_robust_gt
+from rigid.robots.storing import Report, already_made, open_training, refuse_finished
 from rigid.tasks.protocol import Task
 
 Showing = Callable[[str], AbstractContextManager[Report]]
 Listening = Callable[[str], AbstractContextManager[Listener]]
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How a run searched, but for its budget and seeds."""
+
+    features: str
+    search_measure: str
+    memory: int
+    lambdas: tuple[float, ...] | None
+    """Exactly these; None where the search chose them."""
+
+    @classmethod
+    def of(cls, run: Path) -> Manner:
+        """That of a finished run."""
+        identity = read_settings(RunDirectory(run))["identity"]
+        lambdas = identity["lambdas"]
+        return cls(
+            identity["features"], identity["measure"], identity["adversary"]["memory"],
+            None if lambdas is None else tuple(map(float, lambdas)),
+        )  # fmt: skip
 
 
 def seeds_not_used(runs: Sequence[Path], count: int) -> tuple[int, ...]:
@@ -54,7 +75,8 @@ def train_in_rounds(
     Args:
         run: The finished measurement that it begins with.
         settings: Of every training.
-        preset: Of the searches between.
+        preset: Of the searches between; all else of them is as in `run`, but that canonical play is
+            with the new robot.
         rounds: Trainings in all; 1 is the paper's Robust GT.
         seed: Everything random comes from it.
         out: Directory of the last robot.
@@ -76,21 +98,25 @@ def train_in_rounds(
     refuse_finished(out)
     open_training(out, between)
     measured = load_frontier(run).data
-    human = str(measured["human"])
+    human, manner = str(measured["human"]), Manner.of(run)
     teach = partial(
         train_robust_gt, settings=settings, seed=seed, canonical_episodes=canonical_episodes
     )
     for name in between:
         made, searched = out / name / "robot", out / name / "frontier"
         lesson = take_lesson(runs, settings, task=task, robot=robot)
-        if not (made / CARD_FILE).exists():
+        if not already_made(made, lesson.task, making_of(lesson, settings, seed)):
             with training(name) as report:
                 teach(lesson, out=made, report=report)
         with searching(name) as listener:
             measure_robot(
-                Subject(lesson.task, str(made), human, return_range=stored_range(measured)),
-                preset, out=searched,
-                seeds=seeds_not_used(runs, len(preset.seeds)), listener=listener,
+                Subject(
+                    lesson.task, str(made), human,
+                    features=manner.features, return_range=stored_range(measured),
+                ),
+                preset, out=searched, seeds=seeds_not_used(runs, len(preset.seeds)),
+                lambdas=manner.lambdas, memory=manner.memory,
+                search_measure=manner.search_measure, listener=listener,
             )  # fmt: skip
         runs.append(searched)
         robot = None  # From here on it is where it was measured.

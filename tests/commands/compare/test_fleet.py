@@ -90,6 +90,15 @@ def test_a_robot_that_does_not_load_stops_the_fleet_before_any_work(compare, toy
     assert not (tmp_path / "fleet").exists()
 
 
+def test_files_that_can_run_code_are_opened_for_a_fleet_only_with_trust(compare, toys, tmp_path):
+    (tmp_path / "model.zip").write_bytes(b"no zip")
+    robots = ("--robots", toys / "robot", f"sb3:{tmp_path / 'model.zip'}")
+    assert "say --trust if you trust whoever made it" in compare(*robots)[2]
+    code, _, err = compare(*robots, "--trust")
+    assert code == 2
+    assert "--trust" not in err
+
+
 def test_frontier_refuses_an_executor_that_nobody_knows(rigid, toy_options, tmp_path):
     given = ("--preset", "tiny", "--out", tmp_path / "run", "--executor", "rey")
     code, _, err = rigid("frontier", *toy_options, *given)

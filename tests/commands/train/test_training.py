@@ -78,6 +78,31 @@ def test_robust_gt_trains_on_and_names_a_search_that_no_training_saw(
     assert "--preset tiny --seeds 1..2" in out
 
 
+def test_the_search_that_robust_gt_names_is_as_the_one_it_learned_from_and_can_be_typed(
+    single_run, tmp_path
+):
+    import json
+    import shlex
+    import shutil
+
+    from rigid.commands.train.robust import _as_searched, _typed
+
+    run = shutil.copytree(single_run.directory, tmp_path / "run")
+    assert _as_searched(run) == {}
+    settings = json.loads((run / "settings.json").read_text())
+    settings["identity"] |= {"features": "x,y", "measure": "kl", "lambdas": [0.1, "inf"]}
+    settings["identity"]["adversary"]["memory"] = 3
+    (run / "settings.json").write_text(json.dumps(settings))
+    frontier = json.loads((run / "frontier.json").read_text())
+    frontier |= {"range_source": "option", "return_range": [-100.0, 20.0]}
+    (run / "frontier.json").write_text(json.dumps(frontier))
+    asked = _typed({"robot": "my robots/a", "human": None, **_as_searched(run)})
+    assert shlex.split(asked) == [
+        "--robot", "my robots/a", "--features", "x,y", "--search-measure", "kl", "--memory", "3",
+        "--lambdas", "0.1,inf", "--return-range=-100.0,20.0",
+    ]  # fmt: skip
+
+
 def test_a_place_that_cannot_be_written_exits_with_2(rigid, toys, tmp_path):
     del toys
     (tmp_path / "file").touch()

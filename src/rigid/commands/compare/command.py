@@ -73,6 +73,8 @@ class CompareCommand:
     """Search seeds of --robots, as 0,1,2 or 0..9; by default the preset's."""
     return_range: Annotated[str | None, _shown_as(metavar="LOW,HIGH|FILE")] = None
     """Returns that map to adversarialness 1 and 0 of --robots, or a file of rigid calibrate."""
+    trust: bool = False
+    """Open --robots whose files can run code (sb3, torchscript): only from people you trust."""
     executor: Annotated[str, _shown_as(metavar="WHERE")] = "local"
     """Where --robots are measured: local, ray, or ray:HOST:PORT for a Ray cluster."""
     json: bool = False
@@ -157,11 +159,14 @@ class CompareCommand:
             measure_fleet(
                 self.robots, out=self.out, task=self.task, human=self.human, preset=self.preset,
                 seeds=self.seeds, executor=self.executor, return_range=self.return_range,
+                trust=self.trust,
             )  # fmt: skip
 
     def _refuse_measuring(self) -> None:
         """Refuses what would have no effect without `--robots`."""
-        for name in ("out", "task", "human", "preset", "seeds", "return_range", "executor"):
+        for name in (
+            "out", "task", "human", "preset", "seeds", "return_range", "trust", "executor",
+        ):  # fmt: skip
             if getattr(self, name) != getattr(CompareCommand, name):
                 option = name.replace("_", "-")
                 raise UserError(f"--{option} is for --robots: name the robots to be measured")

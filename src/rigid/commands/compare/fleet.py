@@ -27,6 +27,7 @@ def measure_fleet(
     seeds: str | None,
     executor: str,
     return_range: str | None = None,
+    trust: bool = False,
 ) -> list[Path]:
     """Measures robots into `out`, or goes on where an earlier call stopped.
 
@@ -39,6 +40,7 @@ def measure_fleet(
         seeds: Search seeds as people write them; None for the preset's.
         executor: Where groups run, as people write it.
         return_range: Range of adversarialness as people write it; None for the task's own.
+        trust: Open robots whose files can run code.
 
     Returns:
         Their run directories, in the order of `robots`.
@@ -55,6 +57,7 @@ def measure_fleet(
     from rigid.compute.return_range import find_return_range
     from rigid.compute.robot_run import Order
     from rigid.compute.subject import Subject
+    from rigid.policies.opening import Opening
     from rigid.presets import find_preset
     from rigid.tasks.registry import make_task
 
@@ -62,7 +65,10 @@ def measure_fleet(
     where, range_ = find_executor(executor), find_return_range(return_range, world)
     orders = [
         Order(
-            subject=Subject(world, robot, human, return_range=range_), preset=budget,
+            subject=Subject(
+                world, robot, human, opening=Opening(trust=trust), return_range=range_
+            ),
+            preset=budget,
             settings=settings_for(budget), out=directory, seeds=chosen,
         )
         for robot, directory in zip(robots, directories, strict=True)

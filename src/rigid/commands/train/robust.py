@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -81,16 +81,17 @@ class RobustCommand(MeasuredTaskOptions):
                 searching=_searching,
             )  # fmt: skip
         fresh = seeds_not_used(runs, len(preset.seeds))
-        human = frontier.data["human"]
-        named = "".join(
-            f"--{name.replace('_', '-')} {shlex.quote(str(value))} "
-            for name in ("task", "human_agent", "robot_agent", "horizon")
-            if (value := getattr(self, name)) is not None
-        )
+        named = {
+            name: getattr(self, name) for name in ("task", "human_agent", "robot_agent", "horizon")
+        }
+        options = named | {
+            "robot": self.out, "human": frontier.data["human"], "preset": preset.name,
+            **_as_searched(self.run_),
+            "seeds": f"{fresh[0]}..{fresh[-1]}", "out": f"{self.out}-frontier",
+        }  # fmt: skip
         print(
             f"robot: {self.out}\njudge it by a search that no training saw:\n"
-            f"rigid frontier {named}--robot {self.out} --human {human} --preset {preset.name} "
-            f"--seeds {fresh[0]}..{fresh[-1]} --out {self.out}-frontier"
+            f"rigid frontier {_typed(options)}"
         )
         return 0
 
@@ -119,6 +120,39 @@ class RobustCommand(MeasuredTaskOptions):
         if self.iterations is None:
             return settings
         return replace(settings, training=replace(settings.training, iterations=self.iterations))
+
+
+def _as_searched(run: Path) -> dict[str, object]:
+    """The options of `rigid frontier` that search as a finished run did, its budget apart."""
+    from rigid.compute.return_range import stored_range
+    from rigid.frontier.result import load_frontier
+    from rigid.naturalness.choice import DEFAULT_MEASURE
+    from rigid.naturalness.features import DEFAULT
+    from rigid.robots.rounds import Manner
+
+    manner, given = Manner.of(run), stored_range(load_frontier(run).data)
+    usual = {"features": DEFAULT, "search_measure": DEFAULT_MEASURE, "memory": 1}
+    searched = {
+        "features": manner.features, "search_measure": manner.search_measure,
+        "memory": manner.memory, "lambdas": _listed(manner.lambdas),
+        "return_range": None if given.source == "task" else _listed(given.ends),
+    }  # fmt: skip
+    return {name: value for name, value in searched.items() if value != usual.get(name)}
+
+
+def _listed(numbers: Iterable[float] | None) -> str | None:
+    return None if numbers is None else ",".join(str(number) for number in numbers)
+
+
+def _typed(options: Mapping[str, object]) -> str:
+    """Options as a shell takes them; those that are None are left out."""
+    words = (
+        (f"--{name.replace('_', '-')}", shlex.quote(str(value)))
+        for name, value in options.items()
+        if value is not None
+    )
+    # A value that begins with a dash would be taken for an option.
+    return " ".join(f"{name}{'=' if value[0] == '-' else ' '}{value}" for name, value in words)
 
 
 @contextmanager
