@@ -33,6 +33,7 @@ def account(plan: Plan, places: Places, tables: Mapping[str, Sequence[Row]]) -> 
         episodes=plan.evaluation_episodes, complete=_complete(plan, rows),
         comparison=_comparison(rows), differences=_differences(tables["differences"]),
         verdicts="\n".join(f"- {line}" for line in verdicts(rows, tables["differences"])),
+        caution=caution(tables["differences"]),
         unseen=_successes(tables["unseen"]), crossplay=_crossplay(tables["crossplay"]),
         thorough=_comparison(tables["thorough"]), bodies=_bodies(tables["bodies"]),
         levels=_levels(tables["levels"]), floors=_floors(tables["floors"]),
@@ -58,6 +59,16 @@ def verdicts(rows: Sequence[Row], differences: Sequence[Row]) -> list[str]:
             said += [_against(name, number, differences)
                      for number in ("worst_at", "auc_natural", "auc")]  # fmt: skip
     return said or [_NOTHING]
+
+
+def caution(differences: Sequence[Row]) -> str:
+    """How much a single interval that excludes zero is worth among so many."""
+    judged = [row for row in differences if row["difference_low"] is not None]
+    apart = sum(row["difference_low"] > 0 or row["difference_high"] < 0 for row in judged)
+    return (
+        f"Of {len(judged)} differences with a 95 % interval, {apart} exclude zero; one in twenty "
+        "does by chance where there is no difference."
+    )
 
 
 def _against(name: str, number: str, differences: Sequence[Row]) -> str:
@@ -230,7 +241,8 @@ def _failures(places: Places, rows: Sequence[Row]) -> str:
     table = markdown(heads, [
         [
             _title(row), str(row["robot_seed"]), row["failure"], f"{row['humans']} of {row['of']}",
-            f"{row['naturalness_low']:.2f} to {row['naturalness_high']:.2f}", f"{row['share']:.0%}",
+            f"{row['naturalness_low']:.2f} to {row['naturalness_high']:.2f}",
+            _percent(row["share"]),
         ]
         for row in rows
     ])  # fmt: skip
@@ -243,6 +255,11 @@ def _failures(places: Places, rows: Sequence[Row]) -> str:
     return f"{table}\n\nKeypoints of the most harmful human in each band of naturalness: " + (
         ", ".join(links) + "."
     )
+
+
+def _percent(share: float) -> str:
+    """Whole percents; of a rare failure, that it was there."""
+    return "< 1%" if 0 < share < 0.01 else f"{share:.0%}"
 
 
 def _interval(row: Row, column: str, form: str = ".3f") -> str:

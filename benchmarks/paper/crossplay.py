@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -55,11 +55,13 @@ def play_all(
     return rows
 
 
-def own_success(rows: Sequence[Mapping[str, Any]], robot: str) -> Success | None:
-    """Success of a recipe's robots with their own synthetic humans."""
+def own_success(
+    rows: Sequence[Mapping[str, Any]], robot: str, seeds: Collection[int]
+) -> Success | None:
+    """Success of these of a recipe's robots with their own synthetic humans."""
     return _success([
         row for row in rows
-        if row["robot"] == robot and row["human"] == "human"
+        if row["robot"] == robot and row["robot_seed"] in seeds and row["human"] == "human"
         and row["human_seed"] == row["robot_seed"]
     ])  # fmt: skip
 

@@ -71,7 +71,7 @@ def method_rows(measured: Measured, crossplay: Sequence[Mapping[str, Any]]) -> l
     if not measured:
         return []
     return [
-        method_row(method, own_success(crossplay, method.name))
+        method_row(method, own_success(crossplay, method.name, measured[method.name]))
         for method in compare_methods(measured)
     ]
 

@@ -38,7 +38,7 @@ def success_of(played: Iterable[Played]) -> Success | None:
 
     The interval is the wider, at each end, of Wilson's over all episodes and Student's over robots:
     with few robots either alone promises too much, the one since robots differ, the other since
-    robots that all succeed seem not to.
+    robots that all succeed seem not to. It is about the humans who were met and no others.
 
     Args:
         played: Each robot with each of its humans.

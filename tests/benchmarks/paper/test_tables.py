@@ -7,7 +7,7 @@ import json
 import pytest
 
 from benchmarks.kept import kept_run
-from benchmarks.paper.account import account, verdicts
+from benchmarks.paper.account import _percent, account, caution, verdicts
 from benchmarks.paper.failing import failure_rows
 from benchmarks.paper.measuring import Measuring
 from benchmarks.paper.places import Places
@@ -89,6 +89,13 @@ def test_success_is_with_the_own_human_and_unseen_success_with_those_of_other_se
     assert unseen["robust-gt"] is None
 
 
+def test_success_is_that_of_the_robots_in_the_table(measuring):
+    (first,) = method_rows({"vanilla": {0: measuring.frontier("vanilla", 0)}}, CROSSPLAY)
+    both = measured_recipes(PLAN, measuring)
+    assert first["success"] == 1.0
+    assert method_rows(both, CROSSPLAY)[0]["success"] == pytest.approx(0.95)
+
+
 def test_other_people_are_held_beside_the_reference_person(places, measuring):
     keep(places, "body-tremor", 0, {0: 0.8, 1: 0.8, 2: 0.8})
     rows = body_rows(measured_bodies(PLAN, measuring))
@@ -108,6 +115,18 @@ def test_a_verdict_is_nothing_but_its_interval(measuring):
     assert said[0] == (
         "Robust GT minus Vanilla RL, `worst_at`: -0.200 [-0.200, -0.200]: **lower**."
     )
+
+
+def test_the_account_counts_how_many_differences_exclude_zero():
+    rows = [
+        {"difference_low": low, "difference_high": high}
+        for low, high in ((None, None), (-0.2, -0.1), (-0.1, 0.1), (0.1, 0.2), (0.0, 0.1))
+    ]
+    assert caution(rows).startswith("Of 4 differences with a 95 % interval, 2 exclude zero;")
+
+
+def test_a_rare_failure_is_not_said_to_be_none():
+    assert [_percent(share) for share in (0.0, 0.004, 0.01, 0.5)] == ["0%", "< 1%", "1%", "50%"]
 
 
 def test_the_account_says_what_is_missing(places, measuring):
