@@ -187,7 +187,7 @@ def test_too_few_recorded_people_are_refused(frontier, episodes, tmp_path):
 def fitted(toys, monkeypatch):
     """The preset that `--budget` gives on a machine of one training step a second."""
     del toys
-    monkeypatch.setattr(budget, "training_speed", lambda _: 1.0)
+    monkeypatch.setattr(budget, "working_speed", lambda *_: 1.0)
 
     horizon = FilmedReach().horizon
     half = (TINY.env_steps(horizon) + TINY.scoring_steps(TINY.adversaries, horizon)) / 2

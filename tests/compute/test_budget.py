@@ -30,7 +30,7 @@ FULL, SCORING = work(PRESET), PRESET.scoring_steps(PRESET.adversaries, HORIZON)
 def fitted(share: float):
     """For a machine of one step in a second, time to score all, and a share of that to train."""
     seconds = FIXED_SECONDS + SCORING + share * (FULL - SCORING)
-    return fit_to(PRESET, seconds, horizon=HORIZON, steps_per_second=1.0)
+    return fit_to(PRESET, seconds, horizon=HORIZON, speed=lambda _: 1.0)
 
 
 def test_enough_time_changes_nothing():
@@ -44,7 +44,7 @@ def test_iterations_go_first():
 def test_a_preset_of_fewer_iterations_keeps_them():
     few = replace(PRESET, iterations=5)
     seconds = FIXED_SECONDS + work(few) / 2
-    fit = fit_to(few, seconds, horizon=HORIZON, steps_per_second=1.0)
+    fit = fit_to(few, seconds, horizon=HORIZON, speed=lambda _: 1.0)
     assert fit == replace(few, seeds=(0, 1))
 
 
@@ -62,12 +62,37 @@ def test_too_little_time_for_one_seed_is_refused_with_the_least_that_would_do():
     message = rf"--budget is too short for preset 'tiny': .* about {least:.0f} s here, more than"
     with pytest.raises(UserError, match=message):
         fitted(0.04)
-    assert fit_to(PRESET, least, horizon=HORIZON, steps_per_second=1.0).seeds == (0,)
+    assert fit_to(PRESET, least, horizon=HORIZON, speed=lambda _: 1.0).seeds == (0,)
+
+
+def side_by_side(seconds: float):
+    """On a machine where three processes step as fast as three times one."""
+    return fit_to(PRESET, seconds, horizon=HORIZON, speed=float, workers=3)
+
+
+def test_seeds_that_share_a_machine_are_waited_for_in_turns():
+    """Four seeds on three processes take as long as six."""
+    each = work(replace(PRESET, seeds=(0,)))
+    assert side_by_side(FIXED_SECONDS + 2 * each) == PRESET
+    assert side_by_side(FIXED_SECONDS + 2 * each - 1).iterations == 99
+    least = work(replace(PRESET, seeds=(0,), iterations=20))
+    assert side_by_side(FIXED_SECONDS + least).seeds == (0, 1, 2)
+
+
+def test_time_for_fewer_seeds_than_processes_is_time_of_one_process():
+    """Who has as little as one seed takes on all cores is not sent away."""
+
+    def speed(workers):
+        return 1.0 if workers == 1 else 1e-9
+
+    least = FIXED_SECONDS + work(replace(PRESET, seeds=(0,), iterations=20))
+    fit = fit_to(PRESET, least, horizon=HORIZON, speed=speed, workers=3)
+    assert fit == replace(PRESET, seeds=(0,), iterations=20)
 
 
 def test_no_time_at_all_is_refused():
     with pytest.raises(UserError, match="too short"):
-        fit_to(PRESET, 1.0, horizon=HORIZON, steps_per_second=1e9)
+        fit_to(PRESET, 1.0, horizon=HORIZON, speed=lambda _: 1e9)
 
 
 def test_a_run_that_was_begun_keeps_its_budget(tmp_path, single_run):

@@ -98,17 +98,14 @@ class DoctorCommand(RangeOptions, PairOptions):
 
     def _fitted(self, preset: Preset, task: Task, seconds: float) -> Preset:
         """The preset that `--budget` stands for; a search that was begun keeps its own."""
-        from rigid.compute.budget import fit_to, stored_preset, training_speed
+        from rigid.compute.budget import fit_here, stored_preset
         from rigid.compute.doctor.domain import SEARCH
         from rigid.compute.doctor.steps import LAMBDAS
 
         stored = stored_preset(self.out / SEARCH, preset)
         if stored is not None:
             return stored
-        fitted = fit_to(
-            replace(preset, per_round=(len(LAMBDAS),)), seconds,
-            horizon=task.horizon, steps_per_second=training_speed(task),
-        )  # fmt: skip
+        fitted = fit_here(replace(preset, per_round=(len(LAMBDAS),)), seconds, task)
         return replace(fitted, per_round=preset.per_round)
 
 

@@ -156,7 +156,7 @@ def _fitted(
     lambdas: tuple[float, ...] | None,
 ) -> Preset:
     """The preset that `--budget` stands for; what was begun keeps its own."""
-    from rigid.compute.budget import fit_to, stored_preset, training_speed
+    from rigid.compute.budget import fit_here, stored_preset
     from rigid.compute.run.directory import check_place
 
     stored = stored_preset(options.out, preset)
@@ -164,10 +164,7 @@ def _fitted(
         return stored if options.seeds is None else replace(stored, seeds=preset.seeds)
     check_place(options.out)
     rounds = preset.per_round if lambdas is None else (len(lambdas),)
-    fitted = fit_to(
-        replace(preset, per_round=rounds), seconds,
-        horizon=task.horizon, steps_per_second=training_speed(task),
-    )  # fmt: skip
+    fitted = fit_here(replace(preset, per_round=rounds), seconds, task)
     return replace(fitted, per_round=preset.per_round)
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
 
+from rigid.compute.executors.executor import workers_on_this_machine
 from rigid.errors import UserError
 from rigid.learning.conditioned import Sharing
 from rigid.presets import Preset
@@ -40,6 +42,11 @@ def training_speed(task: Task, learning: float = LEARNING_SECONDS, *, workers: i
         learning: Time that learning takes one process for each step [s].
         workers: One process on all cores, or so many with a core each.
     """
+    return working_speed(stepping_speed(task), workers, learning=learning)
+
+
+def stepping_speed(task: Task) -> float:
+    """Steps per second without learning of one process on all cores, from half a second."""
     world = task.make_world(_PROBE_WORLDS)
     world.reset(np.arange(_PROBE_WORLDS))
     robot = np.zeros((_PROBE_WORLDS, task.robot.action_size))
@@ -48,7 +55,7 @@ def training_speed(task: Task, learning: float = LEARNING_SECONDS, *, workers: i
     while steps < _PROBE_STEPS and seconds < _PROBE_SECONDS:
         world.step(robot, human)
         steps, seconds = steps + 1, time.perf_counter() - begun
-    return working_speed(_PROBE_WORLDS * steps / seconds, workers, learning=learning)
+    return _PROBE_WORLDS * steps / seconds
 
 
 def working_speed(
@@ -65,28 +72,70 @@ def working_speed(
     return workers / (slower / stepping + learning)
 
 
-def fit_to(preset: Preset, seconds: float, *, horizon: int, steps_per_second: float) -> Preset:
-    """The preset with fewer iterations, then fewer seeds, so that it takes about `seconds`.
+def fit_here(preset: Preset, seconds: float, task: Task) -> Preset:
+    """The preset with fewer iterations, then fewer seeds, so that it takes this machine `seconds`.
 
     Raises:
         UserError: Not even one seed with 20 iterations fits.
     """
-    affordable = max(seconds - FIXED_SECONDS, 0.0) * steps_per_second
-    if _work(preset, horizon) <= affordable:
+    stepping, steps = stepping_speed(task), preset.env_steps(task.horizon)
+    return fit_to(
+        preset, seconds, horizon=task.horizon,
+        speed=lambda workers: working_speed(stepping, workers),
+        workers=workers_on_this_machine(len(preset.seeds), steps, task),
+    )  # fmt: skip
+
+
+def fit_to(
+    preset: Preset, seconds: float, *, horizon: int, speed: Callable[[int], float], workers: int = 1
+) -> Preset:
+    """The preset with fewer iterations, then fewer seeds, so that it takes about `seconds`.
+
+    Args:
+        preset: What there is to do, if there is time.
+        seconds: There are [s].
+        horizon: Of the task.
+        speed: Steps per second of so many processes, as of `working_speed`.
+        workers: Processes that would share the seeds, one seed each at a time. Where the time does
+            not suffice for as many seeds, one process is reckoned with.
+
+    Raises:
+        UserError: Not even one seed with 20 iterations fits.
+    """
+    for count in (workers, 1):
+        affordable = max(seconds - FIXED_SECONDS, 0.0) * speed(count)
+        fitted = _fitted(preset, affordable, horizon, count)
+        if fitted is not None:
+            return fitted
+    least = replace(
+        preset, seeds=preset.seeds[:1], iterations=min(_LEAST_ITERATIONS, preset.iterations)
+    )
+    needed = FIXED_SECONDS + _work(least, horizon) / speed(1)
+    raise UserError(
+        f"--budget is too short for preset {preset.name!r}: one seed of {least.iterations} "
+        f"iterations takes about {needed:.0f} s here, more than the {seconds:g} s given"
+    )
+
+
+def _fitted(preset: Preset, affordable: float, horizon: int, workers: int) -> Preset | None:
+    """The preset within so many steps, those among them that idle workers could have done."""
+    turns = -(-len(preset.seeds) // workers)
+
+    def work(turns: int, iterations: int) -> int:
+        """Of workers that search a seed in each turn, also where the last turn lacks seeds."""
+        each = replace(preset, seeds=preset.seeds[:1], iterations=iterations)
+        return turns * workers * _work(each, horizon)
+
+    if work(turns, preset.iterations) <= affordable:
         return preset
-    training = preset.env_steps(horizon)
-    share = (affordable - (_work(preset, horizon) - training)) / training
+    scoring = work(turns, 0)
+    share = (affordable - scoring) / (work(turns, preset.iterations) - scoring)
     least = min(_LEAST_ITERATIONS, preset.iterations)
     iterations = max(int(share * preset.iterations), least)
-    per_seed = _work(replace(preset, seeds=preset.seeds[:1], iterations=iterations), horizon)
-    seeds = int(affordable // per_seed)
-    if seeds < 1:
-        needed = FIXED_SECONDS + per_seed / steps_per_second
-        raise UserError(
-            f"--budget is too short for preset {preset.name!r}: one seed of {least} iterations "
-            f"takes about {needed:.0f} s here, more than the {seconds:g} s given"
-        )
-    return replace(preset, iterations=iterations, seeds=preset.seeds[:seeds])
+    turns = int(affordable // work(1, iterations))
+    if turns < 1:
+        return None
+    return replace(preset, iterations=iterations, seeds=preset.seeds[: turns * workers])
 
 
 def _work(preset: Preset, horizon: int) -> int:

@@ -95,13 +95,21 @@ def on_this_machine(searches: int, env_steps: int, luggage: Any) -> Executor:
         env_steps: Training steps of all of them.
         luggage: What workers would have to be sent; where it cannot be, this process does it all.
     """
-    from rigid.compute.executors.processes import Processes, can_be_sent
+    from rigid.compute.executors.processes import Processes
+
+    count = workers_on_this_machine(searches, env_steps, luggage)
+    return Local() if count == 1 else Processes(count)
+
+
+def workers_on_this_machine(searches: int, env_steps: int, luggage: Any) -> int:
+    """How many groups run at a time with `on_this_machine`, given the same."""
+    from rigid.compute.executors.processes import can_be_sent
     from rigid.cores import cores
 
     count = min(len(cores()), searches)
     if count == 1 or env_steps < WORTH_PROCESSES or not can_be_sent(luggage):
-        return Local()
-    return Processes(count)
+        return 1
+    return count
 
 
 def find_executor(name: str) -> Executor | None:
