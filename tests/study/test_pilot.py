@@ -88,7 +88,7 @@ def test_targets_that_a_script_sends_are_those_that_are_used(store):
 
 @pytest.mark.usefixtures("pilot")
 def test_a_pilot_is_refused_where_a_study_is(order):
-    with pytest.raises(UserError, match="holds a study already: give the pilot a directory of its"):
+    with pytest.raises(UserError, match="holds a study already: choose a directory of its"):
         run_pilot(order, lambda _: lambda: None)
 
 
@@ -180,6 +180,26 @@ def test_a_pilot_that_cannot_begin_leaves_no_study_behind(tmp_path):
     with pytest.raises(UserError, match=r"none\.json does not exist"):
         run_pilot(order, lambda _: lambda: None)
     assert not (order.data / FILE).exists()
+
+
+@pytest.mark.parametrize("served", [True, False], ids=["that is served", "that was served"])
+def test_a_pilot_spares_a_study_that_somebody_made_in_the_meantime(
+    study, tmp_path, monkeypatch, served
+):
+    """The first look finds nothing; the pilot's own server finds the study."""
+    data = tmp_path / "data"
+    other = Store.open(data, load_plan(str(study)))
+    code = other.invite("novice").code
+    if not served:
+        other.close()
+    monkeypatch.setattr("rigid.study.pilot.run.refuse_study", lambda _: None)
+    order = PilotOrder(study=str(study), data=data, scripts=("still",))
+    why = "another process serves" if served else "holds a study already"
+    with pytest.raises(UserError, match=why):
+        run_pilot(order, lambda _: lambda: None)
+    other.close()
+    with Store.read(data) as store:
+        assert store.participant(code).status == "invited"
 
 
 @pytest.mark.parametrize(

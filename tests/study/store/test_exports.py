@@ -224,6 +224,43 @@ def test_a_withdrawal_reaches_exports(data, out, tmp_path, capsys):
     assert [found.mended for found in correct_exports(data)] == [False]  # Until somebody finds it.
 
 
+@pytest.fixture
+def other(tmp_path):
+    """The data of another study."""
+    with played_study(tmp_path / "other", TASK, PLAN):
+        return tmp_path / "other"
+
+
+def test_a_withdrawal_leaves_alone_what_another_study_exported_to_the_place(data, out, other):
+    shutil.rmtree(out)
+    write_export(other, out)
+    before = (out / "export.json").read_bytes()
+    with Store.edit(data) as store:
+        store.withdraw("P01")
+    assert [found.mended for found in correct_exports(data)] == [False]
+    assert (out / "export.json").read_bytes() == before
+    assert "P01" in (out / "episodes.csv").read_text()  # The other study's.
+
+
+def test_an_export_of_another_study_is_not_overwritten(out, other):
+    before = (out / "export.json").read_bytes()
+    message = r"export holds an export of another study, or of other data .*: choose a new dir"
+    with pytest.raises(UserError, match=message):
+        write_export(other, out)
+    assert (out / "export.json").read_bytes() == before
+    with Store.read(other) as store:
+        assert store.exports() == ()
+
+
+def test_an_export_that_says_nothing_of_its_data_is_written_anew(data, out):
+    """As one is that was made before exports said so."""
+    manifest = json.loads((out / "export.json").read_text())
+    del manifest["data"]
+    (out / "export.json").write_text(json.dumps(manifest))
+    write_export(data, out)
+    assert "data" in json.loads((out / "export.json").read_text())
+
+
 def test_every_export_corrects_the_earlier_ones(data, out, tmp_path, capsys):
     with Store.edit(data) as store:
         store.withdraw("P02")

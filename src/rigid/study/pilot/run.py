@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -21,7 +20,7 @@ from rigid.study.pilot.server import Running, pilot_server
 from rigid.study.plan import StudyPlan, load_plan
 from rigid.study.players import open_players
 from rigid.study.store import Store
-from rigid.study.store.schema import FILE, forget
+from rigid.study.store.schema import refuse_study
 from rigid.tasks.protocol import Task, control_period
 
 
@@ -60,14 +59,12 @@ def run_pilot(order: PilotOrder, begin: Begin) -> tuple[Found, ...]:
     Raises:
         UserError: The study cannot be served, or the directory holds a study already.
     """
-    if (order.data / FILE).exists():
-        raise UserError(
-            f"{order.data} holds a study already: give the pilot a directory of its own with --data"
-        )
+    refuse_study(order.data)  # Its server looks again; this says it sooner.
     plan = load_plan(order.study)
     players = open_players(plan, trust=order.trust)
     tick = begin(_ahead(plan, players.task, order))
-    with _serving(order) as server, Store.read(order.data) as store:
+    serving = pilot_server(order.study, order.data, speed=order.speed, trust=order.trust)
+    with serving as server, Store.read(order.data) as store:
         people = [
             Scripted(
                 code=code, role=role, script=order.scripts[number % len(order.scripts)],
@@ -85,20 +82,6 @@ def run_pilot(order: PilotOrder, begin: Begin) -> tuple[Found, ...]:
         return tuple(
             check_participant(plan, players, store, who.code, failures[who.code]) for who in people
         )
-
-
-@contextmanager
-def _serving(order: PilotOrder) -> Iterator[Running]:
-    """The server; one that does not start leaves no study in the way of the next pilot."""
-    with ExitStack() as running:
-        try:
-            server = running.enter_context(
-                pilot_server(order.study, order.data, speed=order.speed, trust=order.trust)
-            )
-        except UserError:
-            forget(order.data)
-            raise
-        yield server
 
 
 async def _all(people: Sequence[Scripted]) -> Mapping[str, str | None]:

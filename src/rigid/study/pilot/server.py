@@ -102,11 +102,16 @@ def _serve(order: Order) -> None:
     from rigid.study.service.opening import open_service
     from rigid.study.service.running import address_of_server, listen, serve
     from rigid.study.store import Store
+    from rigid.study.store.schema import forget
 
     task, robots = open_players(plan, trust=order.trust)
-    with listen("127.0.0.1", 0) as opened, Store.open(data, plan) as store:
+    with listen("127.0.0.1", 0) as opened, Store.open(data, plan, new=True) as store:
         address = address_of_server(opened, "127.0.0.1", tls=False)
-        service = open_service(store, plan, task, robots, data=data, address=address)
+        try:
+            service = open_service(store, plan, task, robots, data=data, address=address)
+        except BaseException:
+            forget(data)  # Else it would lie in the way of the next pilot.
+            raise
         store.set_admin_token(order.token)
         service.clock = lambda: time.monotonic() * order.speed
         service.sleep = lambda seconds: asyncio.sleep(seconds / order.speed)

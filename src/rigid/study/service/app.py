@@ -17,6 +17,7 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
+from rigid.errors import UserError
 from rigid.study.service.admin_routes import admin_app
 from rigid.study.service.context import Service
 from rigid.study.service.headers import SecurityHeaders
@@ -45,7 +46,10 @@ def build_app(service: Service) -> Starlette:
             keeping.cancel()
             with suppress(asyncio.CancelledError):
                 await keeping
-            await service.keep_refusals()
+            try:
+                await service.keep_refusals()
+            except UserError as error:
+                _log.warning("the last counts of refusals are lost: %s", error)
 
     app = Starlette(
         routes=[
@@ -130,9 +134,17 @@ def _door(request: Request) -> str:
 
 
 async def _keep_refusals(service: Service) -> None:
+    """Every few seconds; what cannot be written is tried again, and said once."""
+    said = False
     while True:
         await asyncio.sleep(KEEP_SECONDS)
-        await service.keep_refusals()
+        try:
+            await service.keep_refusals()
+            said = False
+        except UserError as error:
+            if not said:
+                _log.warning("counts of refusals wait to be written: %s", error)
+            said = True
 
 
 def _counted(service: Service) -> Any:

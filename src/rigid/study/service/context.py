@@ -82,9 +82,14 @@ class Service:
             raise Refusal("too-many", "too many requests: wait a little and try again")
 
     async def keep_refusals(self) -> None:
-        """Writes down what was refused since the last time."""
-        for reason, count in self.refusals.unkept().items():
-            await self.desk.do(self.store.count_refused, reason, count)
+        """Writes down what was refused since the last time.
+
+        Raises:
+            UserError: It cannot be written now; the next call tries again.
+        """
+        await self.refusals.keep(
+            lambda reason, count: self.desk.do(self.store.count_refused, reason, count)
+        )
 
     def close(self) -> None:
         """Ends all threads, once what they were asked for is done."""

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Awaitable, Callable
 from typing import Final
+
+from rigid.errors import UserError
 
 STATUS_OF_CODE: Final = {
     "malformed": 400,
@@ -50,15 +53,26 @@ class Refusals:
         """Counts by `where:code`, most first."""
         return dict(self._counts.most_common())
 
-    def unkept(self) -> dict[str, int]:
-        """What was counted since the last call, for the store.
+    async def keep(self, write: Callable[[str, int], Awaitable[None]]) -> None:
+        """Has written down what was counted since it last was.
+
+        Args:
+            write: Takes `where:code` and how many more; what it refuses is written the next time.
 
         Example:
-            >>> refusals = Refusals()
+            >>> import asyncio
+            >>> refusals, written = Refusals(), []
+            >>> async def write(reason, count):
+            ...     written.append((reason, count))
             >>> refusals.count("live", "replayed")
-            >>> refusals.unkept(), refusals.unkept()
-            ({'live:replayed': 1}, {})
+            >>> asyncio.run(refusals.keep(write)), asyncio.run(refusals.keep(write)), written
+            (None, None, [('live:replayed', 1)])
         """
-        new = self._counts - self._kept
-        self._kept = self._counts.copy()
-        return dict(new)
+        for reason, count in (self._counts - self._kept).items():
+            # Before it is written: a write goes on to its end when nobody waits for it any more.
+            self._kept[reason] += count
+            try:
+                await write(reason, count)
+            except UserError:
+                self._kept[reason] -= count
+                raise

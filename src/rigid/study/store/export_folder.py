@@ -20,17 +20,24 @@ _OWN = (*tables.COLUMNS, "README.md", "episodes", "canonical", "played")
 """What an export is made of."""
 
 
-def is_export(path: Path) -> bool:
-    """Whether a directory holds an export, whole or begun."""
-    try:
-        found = json.loads((path / MANIFEST).read_bytes())
-    except (OSError, ValueError):
-        return False
-    return isinstance(found, dict) and found.get("kind") == KIND
+def holds_export(path: Path, data: str) -> bool:
+    """Whether a directory holds an export of this data, whole or begun.
+
+    Args:
+        path: The directory.
+        data: `Notes.identity` of the study's data.
+    """
+    found = _manifest(path)
+    # Exports of before it was known have none.
+    return found is not None and found.get("data", data) == data
 
 
-def check_place(path: Path) -> None:
+def check_place(path: Path, data: str) -> None:
     """Refuses a place that holds something else or cannot be written, before any work.
+
+    Args:
+        path: The place.
+        data: `Notes.identity` of the data that is to be exported.
 
     Raises:
         UserError: It does, or cannot.
@@ -38,11 +45,22 @@ def check_place(path: Path) -> None:
     with writing_to(path):
         path.mkdir(parents=True, exist_ok=True, mode=0o700)
         check_writable(path)
-        if any(path.iterdir()) and not is_export(path):
-            raise UserError(
-                f"{path} is not empty and holds no export (no {MANIFEST}): choose a new directory "
-                "with --out"
-            )
+        if not any(path.iterdir()) or holds_export(path, data):
+            return
+    what = (
+        f"is not empty and holds no export (no {MANIFEST})" if _manifest(path) is None
+        else "holds an export of another study, or of other data of the same"
+    )  # fmt: skip
+    raise UserError(f"{path} {what}: choose a new directory with --out")
+
+
+def _manifest(path: Path) -> dict[str, Any] | None:
+    """What the folder of an export says of itself; None for any other folder."""
+    try:
+        found = json.loads((path / MANIFEST).read_bytes())
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) and found.get("kind") == KIND else None
 
 
 class Folder:

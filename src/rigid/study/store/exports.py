@@ -11,7 +11,7 @@ from rigid.files import writing_to
 from rigid.study.plan import StudyPlan
 from rigid.study.registration import TaskFacts, task_facts
 from rigid.study.store.blocks import Terms, consent_in_words
-from rigid.study.store.export_folder import check_place, is_export, written_anew
+from rigid.study.store.export_folder import check_place, holds_export, written_anew
 from rigid.study.store.export_writing import Order, Written, write_files
 from rigid.study.store.people import now
 from rigid.study.store.shapes import Export
@@ -36,7 +36,7 @@ class Corrected(NamedTuple):
     codes: tuple[str, ...]
     """Whom."""
     mended: bool
-    """False: it is no longer where it was written, so that somebody has to find it."""
+    """False: it is no longer where it was written, or another study's is; it has to be found."""
 
 
 def write_export(
@@ -46,7 +46,8 @@ def write_export(
 
     Args:
         data: Directory of the study.
-        out: New or empty directory, or one that holds an export, which is written anew.
+        out: New or empty directory, or one that holds an export of this data, which is written
+            anew.
         shareable: Leave out who did not agree to sharing, and what leads to a person.
         licence: Under which others may use it, an SPDX identifier.
 
@@ -74,12 +75,14 @@ def _written(data: Path, out: Path, *, shareable: bool, licence: str | None) -> 
         people = tuple(who for who in everybody if who.sharing or not shareable)
         codes = tuple(who.code for who in people)
         facts, registered = _facts(store, plan), dict(store.registered())
-        check_place(out)
-        with Store.edit(data) as beside:  # First: who withdraws from here on finds it.
+        with Store.edit(data) as beside:
+            identity = beside.identity()
+            check_place(out, identity)
+            # First: who withdraws from here on finds it.
             beside.note_export(Export(out, shareable, licence, codes))
         about = {
             "rigid": __version__, "written": now(), "title": None if plan is None else plan.title,
-            "registered": registered, "shareable": shareable, "licence": licence,
+            "data": identity, "registered": registered, "shareable": shareable, "licence": licence,
             "participants": codes, "withdrawn": store.withdrawn(),
         }  # fmt: skip
         terms = Terms(consent_in_words(plan, people), licence, {
@@ -101,9 +104,11 @@ def correct_exports(data: Path) -> tuple[Corrected, ...]:
     with Store.read(data) as store:
         gone = set(store.withdrawn())
         outdated = [export for export in store.exports() if gone & set(export.codes)]
+    with Store.edit(data) as store:
+        identity = store.identity()
     corrected = []
     for path, shareable, licence, codes in outdated:
-        there = is_export(path)
+        there = holds_export(path, identity)
         if there:
             write_export(data, path, shareable=shareable, licence=licence)
         corrected.append(Corrected(path, tuple(c for c in codes if c in gone), there))

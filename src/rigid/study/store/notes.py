@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hmac
 import json
+import secrets
 from pathlib import Path
 
 from rigid.study.store import people
@@ -12,6 +13,7 @@ from rigid.study.store.study_file import StudyFile
 from rigid.study.store.tokens import token_hash
 
 _ADMIN = "admin_token_sha256"
+_IDENTITY = "identity"
 
 
 class Notes(StudyFile):
@@ -22,6 +24,18 @@ class Notes(StudyFile):
         with self._reading() as db:
             row = db.execute("SELECT value FROM meta WHERE name = ?", (name,)).fetchone()
             return None if row is None else str(row["value"])
+
+    def identity(self) -> str:
+        """A random word that tells this study's data from all others; the first who asks makes it.
+
+        Copies of the data have the same.
+        """
+        with self._writing() as db:
+            db.execute(
+                "INSERT OR IGNORE INTO meta VALUES (?, ?)", (_IDENTITY, secrets.token_hex(8))
+            )
+            row = db.execute("SELECT value FROM meta WHERE name = ?", (_IDENTITY,)).fetchone()
+            return str(row["value"])
 
     def count_refused(self, reason: str, count: int = 1) -> None:
         """Counts refused messages; the reason is one of the service's words, never their text."""

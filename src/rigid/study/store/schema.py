@@ -129,6 +129,16 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
         return db
 
 
+def refuse_study(data: Path) -> None:
+    """Keeps what is to be a new study out of another's directory.
+
+    Raises:
+        UserError: There is one.
+    """
+    if (data / FILE).exists():
+        raise UserError(f"{data} holds a study already: choose a directory of its own with --data")
+
+
 def forget(data: Path) -> None:
     """Removes a study that was just made and holds nothing yet."""
     for name in (FILE, f"{FILE}-wal", f"{FILE}-shm", LOCK):

@@ -13,7 +13,7 @@ from rigid.study.plan import StudyPlan
 from rigid.study.records import Answer, EpisodeKind, Kind, Participant, PlayedRecord
 from rigid.study.store import collected, fixed, people, withdrawal
 from rigid.study.store.notes import Notes
-from rigid.study.store.schema import FILE, LOCK, connect, connect_to_read, told
+from rigid.study.store.schema import FILE, LOCK, connect, connect_to_read, refuse_study, told
 from rigid.study.store.shapes import Invitation, Progress, Standing
 
 
@@ -29,22 +29,25 @@ class Store(Notes):
     """
 
     @classmethod
-    def open(cls, data: Path, plan: StudyPlan | None = None) -> Store:
+    def open(cls, data: Path, plan: StudyPlan | None = None, *, new: bool = False) -> Store:
         """Opens the study in the directory `data` for the one process that serves it.
 
         Args:
             data: Directory; made if it is new.
             plan: What the study is; None leaves it as it was stored.
+            new: Refuse a directory that holds a study already.
 
         Raises:
             UserError: Another process serves there; or the plan is not that to which somebody
-                consented already.
+                consented already; or there is a study.
         """
         with told(data / FILE):
             data.mkdir(parents=True, exist_ok=True, mode=0o700)
             lock = (data / LOCK).open("w")
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if new:  # Behind the lock: nobody makes one now.
+                refuse_study(data)
             store = cls(data / FILE, connect(data / FILE), lock)
         except BlockingIOError:
             lock.close()
