@@ -5,9 +5,11 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import os
+import resource
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -41,6 +43,7 @@ from rigid.commands.train.robots import CoOptimizeCommand, GleaveCommand, Vanill
 from rigid.commands.train.robust import RobustCommand
 from rigid.commands.verifying import VerifyCommand
 from rigid.errors import UserError
+from rigid.files import write_atomically
 
 COMMANDS = {
     "demo": DemoCommand,
@@ -244,6 +247,34 @@ def test_a_long_message_is_one_line_in_a_log_and_wrapped_on_a_terminal(exit_of, 
     assert [first, *(line.removeprefix("  ") for line in lines)] == [
         "rigid:", "/a-long-way" * 5, "is no robot: run rigid frontier", "--robot ROBOT --out NEW",
     ]  # fmt: skip
+
+
+def test_a_disk_that_takes_no_more_exits_with_2_and_says_that_what_was_kept_goes_on(exit_of):
+    def fill() -> OSError:
+        try:
+            Path("/dev/full").write_bytes(b"x")
+        except OSError as error:
+            return error
+        pytest.fail("it was not full")
+
+    said = "a file cannot be written (No space left on device): see to the disk; what was finished"
+    code, message = exit_of(fill())
+    assert code == 2
+    assert message.startswith(f"rigid: {said}")
+
+
+def test_a_file_that_the_system_does_not_let_grow_is_named(exit_of, tmp_path):
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limits[1]))
+    try:
+        with pytest.raises(OSError, match="File too large") as caught:
+            write_atomically(tmp_path / "frontier.json", bytes(2000))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert list(tmp_path.iterdir()) == []
+    code, message = exit_of(caught.value)
+    assert code == 2
+    assert f"{tmp_path / 'frontier.json'} cannot be written (File too large)" in message
 
 
 def test_an_interrupted_command_exits_with_130(exit_of):

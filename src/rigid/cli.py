@@ -36,6 +36,7 @@ from rigid.commands.train import TRAIN
 from rigid.commands.verifying import VerifyCommand
 from rigid.compute.threads import fix_xla_threads
 from rigid.errors import UserError
+from rigid.files import disk_refusal
 from rigid.interrupts import give_back_semaphores, terminated_as_interrupted
 from rigid.serving.environment import shut_working_directory
 
@@ -104,6 +105,12 @@ def run(arguments: Sequence[str] | None = None) -> int:
         lines = [printable(line) for line in str(error).split("\n")]
         tell("\n".join(["rigid: " + lines[0], *lines[1:]]))
         return error.exit_code
+    except OSError as error:
+        told = disk_refusal(error)
+        if told is None:
+            raise
+        tell(f"rigid: {printable(told)}")
+        return UserError.exit_code
     except KeyboardInterrupt as interrupt:
         how = str(interrupt) or "the same command begins anew"
         tell(f"\nrigid: interrupted; {how}")

@@ -18,6 +18,9 @@ from rigid.errors import UserError
 _Header = TypeVar("_Header", bound=BaseModel)
 
 
+_DISK_REFUSES = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO}
+
+
 class _Version(BaseModel):
     """The only part of a header that every format version shares."""
 
@@ -34,8 +37,28 @@ def write_atomically(path: Path, data: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         temporary.replace(path)
+    except OSError as error:
+        error.filename = str(path)  # A write that fails does not say where.
+        raise
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def disk_refusal(error: OSError) -> str | None:
+    """What to tell of a file system that took files before and takes none now; None for others.
+
+    Example:
+        >>> print(disk_refusal(OSError(errno.ENOSPC, "No space left on device", "runs/a/x.json")))
+        runs/a/x.json cannot be written (No space left on device): see to the disk; what was \
+        finished before is kept, and the same command goes on
+    """
+    if error.errno not in _DISK_REFUSES:
+        return None
+    where = "a file" if error.filename is None else error.filename
+    return (
+        f"{where} cannot be written ({error.strerror}): see to the disk; what was finished before "
+        "is kept, and the same command goes on"
+    )
 
 
 def check_writable(folder: Path) -> None:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import signal
+import subprocess
+import sys
+from contextlib import contextmanager
 from pathlib import Path
 from select import PIPE_BUF
 
 import cloudpickle
 import loky
 import pytest
+from loky.process_executor import TerminatedWorkerError
 
 from rigid.compute.executors.executor import WORTH_PROCESSES, Local, on_this_machine
-from rigid.compute.executors.processes import Processes, can_be_sent
+from rigid.compute.executors.processes import Processes, _starting, can_be_sent
 from rigid.errors import UserError
 from tests.compute.tiny import Notes, measure_tiny, measured_once, without_times
 
@@ -114,6 +119,63 @@ def test_what_cannot_be_sent_stays_in_one_process(tmp_path):
     with (tmp_path / "open").open("w") as file:
         assert not can_be_sent(file)
         assert isinstance(on_this_machine(9, WORTH_PROCESSES, file), Local)
+
+
+def test_whatever_refuses_to_be_pickled_stays_in_one_process():
+    pointer = ctypes.pointer(ctypes.c_int(1))
+    with pytest.raises(ValueError, match="pointers cannot be pickled"):
+        cloudpickle.dumps(pointer)
+    assert not can_be_sent(pointer)
+
+
+def signals_of_a_worker():
+    """Which signals wait, what SIGTERM does, and how a process ends that it starts and ends."""
+    waiting = signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    os.kill(os.getpid(), signal.SIGTERM)
+    child = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+    child.terminate()
+    return waiting, child.wait(30)
+
+
+def test_workers_outlive_a_termination_signal_and_can_end_what_they_start():
+    """A scheduler sends it to all processes; the driver is who ends its workers."""
+    with Processes(2).workers() as workers, _starting():
+        found = workers._pool.submit(signals_of_a_worker).result(timeout=60)
+    assert found == (set(), -signal.SIGTERM)
+
+
+def test_signals_wait_while_the_first_worker_starts():
+    script = (
+        "import signal\n"
+        "from rigid.compute.executors import processes\n"
+        "with processes.Processes(2).workers() as workers:\n"
+        "    with processes._starting():\n"
+        "        done = workers._pool.submit(int)\n"
+        "        print(sorted(signal.pthread_sigmask(signal.SIG_BLOCK, [])))\n"
+        "    print(sorted(signal.pthread_sigmask(signal.SIG_BLOCK, [])), done.result())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=120
+    )
+    waiting, afterwards = done.stdout.splitlines()
+    assert waiting == str([signal.SIGINT, signal.SIGTERM])
+    assert afterwards == "[] 0"
+
+
+def test_a_process_that_is_killed_before_a_group_is_handed_out_is_told_too(base, tmp_path):
+    """Not only where a group is waited for."""
+
+    class Tired(Processes):
+        @contextmanager
+        def workers(self):
+            with super().workers() as workers:
+                done = workers._pool.submit(os._exit, 1)
+                with pytest.raises(TerminatedWorkerError):
+                    done.result(timeout=60)
+                yield workers
+
+    with pytest.raises(UserError, match=r"the process of group s0-r1 of .* was killed, perhaps"):
+        measure_tiny(base, tmp_path / "run", executor=Tired(2), listener=Notes())
 
 
 def test_many_seeds_get_a_process_for_each_core_or_seed(monkeypatch):

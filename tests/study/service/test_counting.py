@@ -1,5 +1,6 @@
 """Counts of what was refused outlive a database that is busy for a while."""
 
+import asyncio
 import sqlite3
 import time
 from contextlib import contextmanager
@@ -7,8 +8,9 @@ from contextlib import contextmanager
 import pytest
 
 from rigid.study.service import app
+from rigid.study.service.refusing import Refusals
 from rigid.study.store import Store
-from tests.study.service.serving import HTTP, served
+from tests.study.service.serving import ADMIN, HTTP, served
 
 
 @pytest.fixture
@@ -68,3 +70,30 @@ def test_a_server_ends_well_beside_a_busy_database(data, caplog):
     other.__exit__(None, None, None)
     assert "the last counts of refusals are lost" in caplog.text
     assert "Traceback" not in caplog.text
+
+
+def test_two_who_write_counts_down_at_once_write_each_once():
+    """As the server does by itself, and whenever the admin's page asks."""
+    refusals, found = Refusals(), []
+
+    async def write(reason, count):
+        await asyncio.sleep(0)
+        found.append((reason, count))
+
+    async def both():
+        await asyncio.gather(refusals.keep(write), refusals.keep(write))
+
+    for reason in ("not-found", "too-many"):
+        refusals.count("http", reason)
+    asyncio.run(both())
+    assert sorted(found) == [("http:not-found", 1), ("http:too-many", 1)]
+
+
+def test_progress_is_shown_while_the_database_is_busy(server, data):
+    HTTP.get(f"{server.address}/nowhere")
+    wait_for(lambda: written(data) == {"http:not-found": 1})
+    with busy(server):
+        HTTP.get(f"{server.address}/nowhere")
+        headers = {"Authorization": f"Bearer {ADMIN}"}
+        answer = HTTP.get(f"{server.address}/admin/api/progress", headers=headers)
+    assert (answer.status_code, answer.json()["title"]) == (200, "A <small> study")

@@ -17,6 +17,7 @@ from rigid.data.episodes import load_episodes
 from rigid.errors import UserError
 from rigid.study.records import EpisodeArrays
 from rigid.study.registration import register_study
+from rigid.study.service.exports import mend_exports
 from rigid.study.store import Store, exports
 from rigid.study.store.exports import correct_exports, write_export
 from rigid.study.store.tables import COLUMNS, PRIVATE
@@ -224,6 +225,18 @@ def test_a_withdrawal_reaches_exports(data, out, tmp_path, capsys):
     assert [found.mended for found in correct_exports(data)] == [False]  # Until somebody finds it.
 
 
+def test_who_leads_a_study_is_told_that_another_s_export_took_the_place(
+    data, out, other, capsys, caplog
+):
+    shutil.rmtree(out)
+    write_export(other, out)
+    assert WithdrawCommand(codes=("P01",), data=data).run() == 0
+    said = f"{out} held P01, but holds other data's export now: delete them wherever it went"
+    assert f"warning: {said}" in capsys.readouterr().err
+    mend_exports(data)  # As the server does.
+    assert [record.getMessage() for record in caplog.records] == [said]
+
+
 @pytest.fixture
 def other(tmp_path):
     """The data of another study."""
@@ -237,7 +250,7 @@ def test_a_withdrawal_leaves_alone_what_another_study_exported_to_the_place(data
     before = (out / "export.json").read_bytes()
     with Store.edit(data) as store:
         store.withdraw("P01")
-    assert [found.mended for found in correct_exports(data)] == [False]
+    assert [(found.mended, found.taken) for found in correct_exports(data)] == [(False, True)]
     assert (out / "export.json").read_bytes() == before
     assert "P01" in (out / "episodes.csv").read_text()  # The other study's.
 
@@ -259,6 +272,16 @@ def test_an_export_that_says_nothing_of_its_data_is_written_anew(data, out):
     (out / "export.json").write_text(json.dumps(manifest))
     write_export(data, out)
     assert "data" in json.loads((out / "export.json").read_text())
+
+
+def test_a_withdrawal_reaches_an_export_that_says_nothing_of_its_data(data, out):
+    manifest = json.loads((out / "export.json").read_text())
+    del manifest["data"]
+    (out / "export.json").write_text(json.dumps(manifest))
+    with Store.edit(data) as store:
+        store.withdraw("P01")
+    assert [found.mended for found in correct_exports(data)] == [True]
+    assert "P01" not in (out / "episodes.csv").read_text()
 
 
 def test_every_export_corrects_the_earlier_ones(data, out, tmp_path, capsys):

@@ -23,7 +23,7 @@ class ExportCommand:
     `canonical/` holds what people practised, by class of devices and robot: natural behaviour of
     people, for `rigid frontier --canonical`. `played/` holds what each of them played, for
     `rigid pairs --recordings`. The study may be served meanwhile. Into a directory that holds an
-    export it is written anew, without those who withdrew since.
+    export of this data it is written anew, without those who withdrew since.
 
     Examples:
       rigid study export --data data/study1 --out export
@@ -33,7 +33,7 @@ class ExportCommand:
     data: Path
     """Directory of the study."""
     out: Path
-    """New directory, or an earlier export."""
+    """New directory, or an earlier export of this data."""
     shareable: bool = False
     """Leave out who did not agree to sharing, external ids, times, and words of their own."""
     licence: Annotated[str | None, tyro.conf.arg(metavar="SPDX")] = None
@@ -115,11 +115,8 @@ def _told(found: Exported) -> str:
 
 
 def _tell_corrected(corrected: Sequence[Corrected]) -> None:
-    for path, codes, mended in corrected:
-        if mended:
-            print(f"took {', '.join(codes)} out of {path}")
+    for export in corrected:
+        if export.mended:
+            print(f"took {', '.join(export.codes)} out of {export.path}")
         else:
-            tell(
-                f"warning: {path} held {', '.join(codes)}, but is no longer there: delete them "
-                "wherever it went"
-            )
+            tell(f"warning: {export.missing()}")

@@ -32,13 +32,16 @@ class Progress:
 
 
 def settle(desk: Path, cores: Sequence[int]) -> None:
-    """Takes the next free core, where the system allows it, and leaves interrupts to the driver.
+    """Takes the next free core, where the system allows it, and leaves signals to the driver.
 
     Args:
         desk: Folder in which workers mark what they took.
         cores: Those that are to be had.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Heard and not ignored: what a worker starts would ignore it too, and could not be ended.
+    signal.signal(signal.SIGTERM, lambda *_: None)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGTERM})
     if not hasattr(os, "sched_setaffinity"):
         return
     for core in cores:

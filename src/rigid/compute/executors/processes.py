@@ -12,8 +12,8 @@ from collections.abc import Generator, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from pathlib import Path
-from pickle import PicklingError
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -41,7 +41,7 @@ def can_be_sent(thing: Any) -> bool:
 
     try:
         cloudpickle.dumps(thing)
-    except (PicklingError, TypeError, AttributeError):  # What pickle says of what it cannot take.
+    except Exception:  # noqa: BLE001 - Whatever a stranger's object says when it is pickled.
         return False
     return True
 
@@ -69,17 +69,36 @@ class Processes:
 
 @contextmanager
 def _starting() -> Iterator[None]:
-    """Keeps Ctrl-C until the end of the block, and for good from processes that start in it.
+    """Keeps Ctrl-C until the end of the block, and from processes that start in it until `settle`.
 
     The terminal sends it to all of them, and who still loads modules would answer with a traceback.
     So it is with SIGTERM, which a scheduler sends to all: the driver is who ends its workers.
     """
+    resource_tracker.ensure_running()  # With a first process, it would let signals through again.
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         with interrupts_held():  # Threads of JAX let through what this one does not.
             yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _killed_is_told(search: SeedSearch, plan: GroupPlan) -> Iterator[None]:
+    """Turns the loss of a process into a message.
+
+    Raises:
+        UserError: One was killed; the others end with it.
+    """
+    from loky.process_executor import TerminatedWorkerError
+
+    try:
+        yield
+    except TerminatedWorkerError:
+        raise UserError(
+            f"the process of group {plan.name} of {search.inputs.directory} was killed, perhaps "
+            "for want of memory: the same command goes on"
+        ) from None
 
 
 class ProcessWorkers:
@@ -103,7 +122,7 @@ class ProcessWorkers:
         """Hands a group to the next free process."""
         progress_file(search.inputs.directory, plan).unlink(missing_ok=True)  # Of an earlier one.
         errand = leave_errand(self._desk, search.inputs, plan)
-        with _starting():
+        with _starting(), _killed_is_told(search, plan):
             future: Future[None] = self._pool.submit(work, errand, os.getpid())
         self._heard[future] = Progress()
         return future
@@ -119,16 +138,9 @@ class ProcessWorkers:
 
     def collect(self, done: Future[None], search: SeedSearch, plan: GroupPlan) -> None:
         """Takes its points; its files are where they belong."""
-        from loky.process_executor import TerminatedWorkerError
-
-        directory = search.inputs.directory
-        try:
+        with _killed_is_told(search, plan):
             done.result()
-        except TerminatedWorkerError:
-            raise UserError(
-                f"the process of group {plan.name} of {directory} was killed, perhaps for want of "
-                "memory: the same command goes on"
-            ) from None
+        directory = search.inputs.directory
         self._hear(done, search, plan)
         progress_file(directory, plan).unlink(missing_ok=True)
         search.take_stored(plan)

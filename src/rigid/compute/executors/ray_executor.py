@@ -13,7 +13,6 @@ from collections.abc import Generator, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from pickle import PicklingError
 from typing import Any
 
 from rigid.compute.executors.driving import drive
@@ -154,7 +153,9 @@ class RayWorkers:
     def _put(self, inputs: GroupInputs) -> Any:
         try:
             return self._ray.put(replace(inputs, threads=self._cpus))
-        except (TypeError, AttributeError, PicklingError) as error:
+        except self._ray.exceptions.RayError:
+            raise  # A cluster's trouble, no object's.
+        except Exception as error:  # noqa: BLE001 - As of `can_be_sent`.
             raise UserError(
                 f"task {inputs.task.name!r} and its robot cannot be sent to other machines "
                 f"({first_line(error)}): use the executor local"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import secrets
+from contextlib import suppress
 from importlib import resources
 from typing import Final
 
@@ -118,7 +119,8 @@ def _packaged(name: str) -> Response:
 
 async def _progress(request: Request) -> Response:
     service = service_of(request)
-    await service.keep_refusals()
+    with suppress(UserError):  # Counts may wait; how far everybody is must not.
+        await service.keep_refusals()
     found = await service.desk.do(service.store.progress)
     return JSONResponse(
         {

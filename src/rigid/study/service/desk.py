@@ -21,7 +21,8 @@ class Desk:
     async def do(self, work: Callable[_P, _Found], *args: _P.args, **kwargs: _P.kwargs) -> _Found:
         """What `work` returns. It is done to its end even where nobody waits for it any more."""
         loop = asyncio.get_running_loop()
-        return await loop.run_in_executor(self._thread, partial(work, *args, **kwargs))
+        asked = loop.run_in_executor(self._thread, partial(work, *args, **kwargs))
+        return await asyncio.shield(asked)  # Else it would be dropped while it waits its turn.
 
     def close(self) -> None:
         """Ends the thread once all is done that was asked for."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import tempfile
 import zipfile
 from collections.abc import Iterator
@@ -14,6 +15,7 @@ from rigid.study.store.exports import correct_exports, write_export
 _FOLDER = "exports"
 _CHUNK: Final = 256 * 1024
 """Bytes that are sent at a time."""
+_log = logging.getLogger(__name__)
 
 
 def zipped_export(data: Path, *, shareable: bool) -> IO[bytes]:
@@ -46,5 +48,7 @@ def in_chunks(file: IO[bytes]) -> Iterator[bytes]:
 
 
 def mend_exports(data: Path) -> None:
-    """Takes people who withdrew out of exports on this machine."""
-    correct_exports(data)
+    """Takes people who withdrew out of exports on this machine; warns of those that are gone."""
+    for export in correct_exports(data):
+        if not export.mended:
+            _log.warning("%s", export.missing())

@@ -68,7 +68,11 @@ class Refusals:
             >>> asyncio.run(refusals.keep(write)), asyncio.run(refusals.keep(write)), written
             (None, None, [('live:replayed', 1)])
         """
-        for reason, count in (self._counts - self._kept).items():
+        for reason in tuple(self._counts):
+            # Looked at anew each time: somebody else may have it written while this one waits.
+            count = self._counts[reason] - self._kept[reason]
+            if not count:
+                continue
             # Before it is written: a write goes on to its end when nobody waits for it any more.
             self._kept[reason] += count
             try:

@@ -28,8 +28,14 @@ def holds_export(path: Path, data: str) -> bool:
         data: `Notes.identity` of the study's data.
     """
     found = _manifest(path)
-    # Exports of before it was known have none.
+    # Older exports do not say whose they are. They count as this study's, since who withdraws is to
+    # be taken out of them as well.
     return found is not None and found.get("data", data) == data
+
+
+def is_export(path: Path) -> bool:
+    """Whether a directory holds an export of any data."""
+    return _manifest(path) is not None
 
 
 def check_place(path: Path, data: str) -> None:
@@ -48,8 +54,8 @@ def check_place(path: Path, data: str) -> None:
         if not any(path.iterdir()) or holds_export(path, data):
             return
     what = (
-        f"is not empty and holds no export (no {MANIFEST})" if _manifest(path) is None
-        else "holds an export of another study, or of other data of the same"
+        "holds an export of another study, or of other data of the same" if is_export(path)
+        else f"is not empty and holds no export (no {MANIFEST})"
     )  # fmt: skip
     raise UserError(f"{path} {what}: choose a new directory with --out")
 

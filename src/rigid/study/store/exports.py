@@ -11,7 +11,7 @@ from rigid.files import writing_to
 from rigid.study.plan import StudyPlan
 from rigid.study.registration import TaskFacts, task_facts
 from rigid.study.store.blocks import Terms, consent_in_words
-from rigid.study.store.export_folder import check_place, holds_export, written_anew
+from rigid.study.store.export_folder import check_place, holds_export, is_export, written_anew
 from rigid.study.store.export_writing import Order, Written, write_files
 from rigid.study.store.people import now
 from rigid.study.store.shapes import Export
@@ -36,7 +36,15 @@ class Corrected(NamedTuple):
     codes: tuple[str, ...]
     """Whom."""
     mended: bool
-    """False: it is no longer where it was written, or another study's is; it has to be found."""
+    """False: it is no longer where it was written, so that somebody has to find it."""
+    taken: bool = False
+    """An export of other data is there now, and left alone."""
+
+    def missing(self) -> str:
+        """What there is to do about one that is not mended."""
+        now_there = "holds other data's export now" if self.taken else "is no longer there"
+        whom = ", ".join(self.codes)
+        return f"{self.path} held {whom}, but {now_there}: delete them wherever it went"
 
 
 def write_export(
@@ -98,6 +106,8 @@ def _written(data: Path, out: Path, *, shareable: bool, licence: str | None) -> 
 def correct_exports(data: Path) -> tuple[Corrected, ...]:
     """Takes those who withdrew out of every export that holds them and is still where it was.
 
+    A place that holds an export of other data by now is left alone.
+
     Raises:
         UserError: As `write_export`.
     """
@@ -111,7 +121,8 @@ def correct_exports(data: Path) -> tuple[Corrected, ...]:
         there = holds_export(path, identity)
         if there:
             write_export(data, path, shareable=shareable, licence=licence)
-        corrected.append(Corrected(path, tuple(c for c in codes if c in gone), there))
+        whom = tuple(code for code in codes if code in gone)
+        corrected.append(Corrected(path, whom, there, not there and is_export(path)))
     with Store.edit(data) as store:
         store.scrub()
     return tuple(corrected)
