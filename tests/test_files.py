@@ -1,12 +1,10 @@
-"""Files that are whole or absent, and headers that say what is wrong with them."""
+"""Files that are whole or absent, and places that are refused with what is wrong."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
-from pydantic import BaseModel
 
 from rigid.errors import UserError
 from rigid.files import (
@@ -14,20 +12,9 @@ from rigid.files import (
     json_text,
     lies_there,
     make_room,
-    parse_header,
     read_bytes,
     write_atomically,
 )
-
-
-class Header(BaseModel):
-    format: int
-    names: tuple[str, ...]
-
-
-def parse(value):
-    text = value if isinstance(value, str) else json.dumps(value)
-    return parse_header(Header, text, version=2, where="file.x", cure="make it again")
 
 
 def test_a_write_replaces_the_old_file_and_leaves_nothing_else(tmp_path):
@@ -71,25 +58,6 @@ def test_room_is_made_without_leaving_a_file(tmp_path):
 def test_an_unreadable_file_is_named_with_the_cure(tmp_path, name, message):
     with pytest.raises(UserError, match=message):
         read_bytes(tmp_path / name, cure="look again")
-
-
-@pytest.mark.parametrize(
-    ("value", "message"),
-    [
-        pytest.param("{", "file.x: the header: Invalid JSON.*: make it again", id="no-json"),
-        pytest.param({}, "file.x: format: Field required: make it again", id="no-version"),
-        pytest.param({"format": 3}, "version 3, but this RIGID reads up to 2: install", id="newer"),
-        pytest.param({"format": 0}, "unknown format version 0: make it again", id="no-such"),
-        pytest.param({"format": 2, "names": ["a", 1]}, r"file.x: names\.1: .*string", id="type"),
-    ],
-)
-def test_a_bad_header_is_refused_with_place_and_cure(value, message):
-    with pytest.raises(UserError, match=message):
-        parse(value)
-
-
-def test_a_header_may_say_more_than_is_read():
-    assert parse({"format": 2, "names": ["a"], "comment": "more"}).names == ("a",)
 
 
 def test_equal_values_give_equal_text():

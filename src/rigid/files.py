@@ -1,4 +1,4 @@
-"""Files at the edge: written whole or not at all, and JSON headers that say what is wrong."""
+"""Files at the edge: written whole or not at all, and refused with what is wrong."""
 
 from __future__ import annotations
 
@@ -9,22 +9,11 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, TypeVar
-
-from pydantic import BaseModel, ValidationError
+from typing import Any
 
 from rigid.errors import UserError
 
-_Header = TypeVar("_Header", bound=BaseModel)
-
-
 _DISK_REFUSES = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO}
-
-
-class _Version(BaseModel):
-    """The only part of a header that every format version shares."""
-
-    format: int
 
 
 def write_atomically(path: Path, data: bytes) -> None:
@@ -120,37 +109,6 @@ def json_text(value: Mapping[str, Any], *, indent: int | None = None) -> str:
         ValueError: A number is NaN or infinite, which JSON does not know.
     """
     return json.dumps(value, sort_keys=True, indent=indent, ensure_ascii=False, allow_nan=False)
-
-
-def parse_header(
-    model: type[_Header], text: str | bytes, *, version: int, where: object, cure: str
-) -> _Header:
-    """A JSON header, checked against `model`.
-
-    Args:
-        model: What format `version` looks like.
-        text: JSON.
-        version: The newest format version that this RIGID reads.
-        where: Whose header it is; begins every message.
-        cure: What to do about a bad header; ends every message but the one on newer versions.
-
-    Raises:
-        UserError: The header is no JSON, of another version, or does not fit `model`.
-    """
-    try:
-        found = _Version.model_validate_json(text).format
-        if found > version:
-            raise UserError(
-                f"{where} has format version {found}, but this RIGID reads up to {version}: "
-                "install a newer rigid-frontier"
-            )
-        if found < 1:
-            raise UserError(f"{where} has unknown format version {found}: {cure}")
-        return model.model_validate_json(text)
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(part) for part in first["loc"]) or "the header"
-        raise UserError(f"{where}: {place}: {first['msg']}: {cure}") from None
 
 
 def lies_there(path: Path | str, found: Callable[[Path], bool] = Path.exists) -> bool:

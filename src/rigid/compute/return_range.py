@@ -16,7 +16,8 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, FiniteFloat, model_validator
 
 from rigid.errors import UserError
-from rigid.files import first_difference, parse_header, read_bytes
+from rigid.files import first_difference, read_bytes
+from rigid.headers import parse_header
 from rigid.tasks.protocol import Task
 from rigid.tasks.views.ranged import checked_range
 

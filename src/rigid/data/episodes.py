@@ -24,7 +24,8 @@ from pydantic import BaseModel, ConfigDict, PositiveFloat
 from rigid.data.about import NOTHING_SAID, About
 from rigid.data.checks import check_notes, check_task, check_values
 from rigid.errors import UserError
-from rigid.files import json_text, parse_header, write_atomically
+from rigid.files import json_text, write_atomically
+from rigid.headers import parse_header
 from rigid.tasks.protocol import Task
 
 Source = Literal["synthetic", "recorded"]

@@ -23,8 +23,9 @@ from pydantic import (
 )
 
 from rigid.errors import UserError
-from rigid.files import json_text, parse_header, read_bytes, write_atomically
+from rigid.files import json_text, read_bytes, write_atomically
 from rigid.frontier.schema import Share
+from rigid.headers import parse_header
 
 FORMAT_VERSION = 1
 _CURE = "copy the file again, or pick the pairs again with `rigid pairs`"

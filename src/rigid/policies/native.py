@@ -19,7 +19,8 @@ from safetensors import SafetensorError, deserialize
 from safetensors.numpy import save
 
 from rigid.errors import UserError
-from rigid.files import json_text, parse_header, read_bytes, write_atomically
+from rigid.files import json_text, read_bytes, write_atomically
+from rigid.headers import parse_header
 from rigid.policies.architecture import (
     Architecture,
     NativePolicy,

@@ -11,7 +11,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict
 
 from rigid.errors import UserError
-from rigid.files import parse_header
+from rigid.headers import parse_header
 from rigid.policies.foreign import Wanted, check_made_for
 from rigid.policies.native import Agent
 

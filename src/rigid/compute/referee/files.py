@@ -17,7 +17,8 @@ from safetensors import SafetensorError
 from safetensors.numpy import load, save
 
 from rigid.errors import UserError
-from rigid.files import json_text, parse_header, read_bytes, write_atomically
+from rigid.files import json_text, read_bytes, write_atomically
+from rigid.headers import parse_header
 from rigid.naturalness.panel import Jury, Panel, naturalness
 from rigid.naturalness.rates import Rate
 from rigid.naturalness.referee import Referee

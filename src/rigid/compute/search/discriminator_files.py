@@ -10,7 +10,8 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, NonNegativeInt
 
-from rigid.files import parse_header, read_bytes
+from rigid.files import read_bytes
+from rigid.headers import parse_header
 
 FORMAT_VERSION = 1
 
