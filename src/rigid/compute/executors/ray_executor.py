@@ -155,7 +155,7 @@ class RayWorkers:
             return self._ray.put(replace(inputs, threads=self._cpus))
         except self._ray.exceptions.RayError:
             raise  # A cluster's trouble, no object's.
-        except Exception as error:  # noqa: BLE001 - As of `can_be_sent`.
+        except Exception as error:  # noqa: BLE001 - Whatever an object of strangers says when it is pickled.
             raise UserError(
                 f"task {inputs.task.name!r} and its robot cannot be sent to other machines "
                 f"({first_line(error)}): use the executor local"

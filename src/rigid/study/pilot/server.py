@@ -87,7 +87,7 @@ def main() -> int:
     try:
         _serve(order)
     except UserError as error:
-        print(json.dumps({"error": str(error)}), flush=True)  # noqa: T201 - It is read by `pilot_server`.
+        print(json.dumps({"error": str(error)}), flush=True)  # noqa: T201 - Standard output is the pipe that `pilot_server` reads.
         return error.exit_code
     except KeyboardInterrupt:
         pass
@@ -115,7 +115,7 @@ def _serve(order: Order) -> None:
         store.set_admin_token(order.token)
         service.clock = lambda: time.monotonic() * order.speed
         service.sleep = lambda seconds: asyncio.sleep(seconds / order.speed)
-        print(json.dumps({"address": address}), flush=True)  # noqa: T201 - As above.
+        print(json.dumps({"address": address}), flush=True)  # noqa: T201 - Standard output is the pipe that `pilot_server` reads.
         serve(service, opened)
 
 
